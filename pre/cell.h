@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Exact area and centroid of a simple polygon, convex or not.
+ */
+#ifndef KR_CELL_H
+#define KR_CELL_H
+
+#include <stddef.h>
+
+/** Area [m^2] (positive if counter-clockwise) and area centroid of a polygon.
+ *
+ *    A = 1/2 sum (x_k y_k+1 - x_k+1 y_k),  C = 1/(6A) sum (p_k + p_k+1)(x_k y_k+1 - x_k+1 y_k)
+ *
+ *  taken about the first vertex, so that nothing is lost far from the origin.
+ *
+ *  in   n         number of vertices, 3 or more
+ *  in   point     (n x 2) m
+ *  out  centroid  (2) m; the mean of the vertices where the area is 0
+ */
+double kr_cell_polygon(size_t n, const double *point, double centroid[2]);
+
+#endif

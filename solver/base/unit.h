@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Quantities written by people: "0.16 mm", "6 MPa", "1190 kg/m3". Read by udunits2, SI inside.
+ */
+#ifndef KR_UNIT_H
+#define KR_UNIT_H
+
+/** Read a quantity.
+ *
+ *  in   text    number and unit, "0.16 mm"
+ *  in   unit    SI unit it must convert to, "m"; "1" for a pure number (then no unit may stand)
+ *  out  value   in that unit
+ *  out  why     where it fails: what was found and what was expected, owned by the caller (kr_free)
+ *  returns 1 if read, 0 if not.
+ */
+int kr_unit_read(const char *text, const char *unit, double *value, char **why);
+
+/** Factor from the unit written in text to the SI unit; 0 where they do not convert. */
+double kr_unit_factor(const char *text, const char *unit);
+
+/** Free what udunits2 keeps. */
+void kr_unit_close(void);
+
+#endif

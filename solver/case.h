@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * A case: all that a deck says, in SI units. Each program reads the part it needs; all check the
+ * whole. The table of keys is in case.c, and docs/deck.md is printed from it.
+ */
+#ifndef KR_CASE_H
+#define KR_CASE_H
+
+#include "base/deck.h"
+
+enum kr_grid { KR_GRID_NEAR_BOUNDARY, KR_GRID_UNIFORM };
+enum kr_partial_volume { KR_PARTIAL_VOLUME_HHB, KR_PARTIAL_VOLUME_NONE };
+enum kr_surface_correction { KR_SURFACE_ENERGY, KR_SURFACE_NONE };
+enum kr_deformation { KR_UNIAXIAL_Y, KR_UNIAXIAL_X, KR_ISOTROPIC, KR_MEAN_OVER_AXES };
+enum kr_model { KR_PLANE_STRESS, KR_PLANE_STRAIN };
+
+struct kr_case_hole {
+    double centre[2]; /* m */
+    double radius;    /* m */
+};
+
+struct kr_case_pores {
+    int64_t count, seed, attempts;
+    double radius[2];     /* m: least and most */
+    double edge_diameters; /* distance of a centre from the edges, in diameters of the pore */
+    double gap;           /* m: least distance between the rims of two pores */
+};
+
+struct kr_case_set {
+    const char *name;
+    double within;    /* m: nodes within this distance ... */
+    const char *of;   /* ... of this boundary */
+    double lower[2], upper[2]; /* m: or nodes in this box */
+};
+
+struct kr_case_crack {
+    double from[2], to[2]; /* m */
+};
+
+struct kr_case_load {
+    const char *set;
+    struct kr_deck_formula displacement[2]; /* m */
+    struct kr_deck_formula velocity[2];     /* m/s */
+    struct kr_deck_formula traction[2];     /* Pa, on the boundary that the set belongs to */
+    struct kr_deck_formula body_force[2];   /* N/m^3 */
+    double ramp; /* s: from 0 to the full value in this time; 0: at once */
+};
+
+struct kr_case_box {
+    double lower[2], upper[2]; /* m */
+    int direction;             /* 0 +x, 1 -x, 2 +y, 3 -y */
+};
+
+struct kr_case {
+    const char *title;
+
+    /* geometry */
+    double width, height; /* m: plate with its lower left corner at (0, 0) */
+    struct kr_deck_list holes;  /* struct kr_case_hole */
+    struct kr_case_pores pores; /* count 0: none */
+
+    /* mesh */
+    int grid; /* enum kr_grid */
+    double spacing;    /* m */
+    double padding;    /* m: from a hole to the rim of its box; 0: the horizon */
+
+    /* nodes */
+    double horizon; /* m */
+    int partial_volume, surface_correction, surface_deformation;
+    struct kr_deck_list sets; /* struct kr_case_set */
+
+    /* material */
+    const char *law;
+    int model; /* enum kr_model */
+    double youngs_modulus;  /* Pa */
+    double density;         /* kg/m^3 */
+    double fracture_energy; /* J/m^2; 0: does not break */
+
+    /* cracks */
+    struct kr_deck_list cracks; /* struct kr_case_crack */
+    int count_precrack;
+
+    struct kr_deck_list loads;   /* struct kr_case_load */
+    struct kr_deck_list no_fail; /* const char * */
+
+    /* solver */
+    double end_time;      /* s */
+    double time_step;     /* s; 0: found */
+    double safety_factor; /* of the largest stable step */
+
+    /* output */
+    const char *folder;
+    double output_every;          /* s */
+    struct kr_deck_list output_at; /* double, s */
+    double history_every;         /* s */
+    double damage_threshold;
+
+    /* track */
+    int64_t window; /* steps */
+    struct kr_deck_list boxes; /* struct kr_case_box */
+};
+
+/** Keys of the deck, for kr_deck_read and kr_deck_reference. */
+extern const struct kr_deck_key kr_case_keys[];
+
+/** Arguments that every program takes, and the case they lead to. */
+struct kr_case_arguments {
+    const char *deck, *variant, *folder; /* folder: --output, over the deck's */
+    size_t n_set;
+    const char **set;
+    int check, explain; /* --check, --explain */
+    size_t n_left;      /* what the program itself must understand: it stops on unknown ones */
+    const char **left;
+};
+
+/** Read `program [--variant V] [--set key=value]... [--output DIR] [--check] [--explain] [--help]
+ *  [--version] case.yaml`. --help prints `usage` and exits 0; faults stop (exit 2). */
+void kr_case_arguments(int argc, char **argv, const char *usage, struct kr_case_arguments *out);
+
+/** Open the deck, read and check it whole; faults stop (exit 2). The folder is made. */
+struct kr_deck *kr_case_open(const struct kr_case_arguments *arguments, struct kr_case *out);
+
+/** Path of a file in the case's folder, owned by the caller: kr_case_file(c, "plate.msh"). */
+char *kr_case_file(const struct kr_case *c, const char *name);
+
+/** All holes: those of the deck and, where `pores` is given, those that kirsch-pores left in
+ *  pores.txt of the folder. Owned by the caller (kr_free). Stops if pores.txt is missing or bad. */
+struct kr_case_hole *kr_case_holes(const struct kr_case *c, size_t *count);
+
+#endif
