@@ -1,0 +1,119 @@
+# Kirsch: how brittle plates with holes break.
+#
+#   make            build everything into build/
+#   make demo       a crack runs through a porous plate; ends with pictures (FULL=1: the paper's size)
+#   make test       all tests (ONLY=word: those whose name contains the word)
+#   make bench      measure the speed; writes build/bench.csv
+#   make deps       list what the system lacks and install it (Debian; sudo where not root)
+#   make docs       write docs/deck.md anew from the table that reads the deck
+#   make format     clang-format the sources
+#   make install    PREFIX=/usr/local
+#   make clean
+#   make help       this list
+#
+# Settings: CC, CFLAGS, PREFIX, V=1 (show commands), SANITIZE=1 (address and undefined behaviour).
+# Sources are found by wildcard: a new file needs no change here. A file named kirsch-*.c is a program.
+
+BUILD    ?= build
+PREFIX   ?= /usr/local
+CC       ?= cc
+CFLAGS   ?= -O2 -g
+Q        := $(if $(V),,@)
+
+WARNINGS := -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes -Wmissing-prototypes \
+            -Wno-missing-field-initializers
+VERSION  := $(shell git describe --always --dirty --tags 2>/dev/null || echo unknown)
+ifdef SANITIZE
+CFLAGS   += -fsanitize=address,undefined -fno-omit-frame-pointer
+endif
+ALL_FLAGS = -std=c11 -D_GNU_SOURCE -fopenmp $(WARNINGS) $(CFLAGS) -Isolver -Ipre -Ipost -MMD -MP \
+            $(shell pkg-config --cflags hdf5 libfyaml udunits 2>/dev/null)
+LIBS      = $(shell pkg-config --libs hdf5 libfyaml 2>/dev/null) -ludunits2 -lmuparser -lm
+
+# What Debian must provide to build and run, and to test.
+PACKAGES := pkg-config libhdf5-dev libfyaml-dev libudunits2-dev libmuparser-dev libgmsh-dev \
+            libcmocka-dev python3 python3-numpy python3-matplotlib python3-h5py ffmpeg
+
+programs_c := $(wildcard pre/kirsch-*.c solver/kirsch-*.c post/kirsch-*.c) $(wildcard solver/kirsch.c)
+library_c  := $(filter-out $(programs_c) solver/kernel.c,$(wildcard solver/base/*.c solver/*.c \
+              solver/material/*.c pre/*.c post/*.c))
+programs   := $(patsubst %.c,$(BUILD)/%,$(notdir $(programs_c)))
+library_o  := $(patsubst %.c,$(BUILD)/%.o,$(library_c))
+tests_c    := $(wildcard tests/unit/*.c tests/property/*.c tests/convergence/*.c tests/input/*.c)
+tests      := $(patsubst tests/%.c,$(BUILD)/tests/%,$(tests_c))
+
+# The bond loop is built once for each kind of processor and chosen at run time.
+kernels    := $(if $(wildcard solver/kernel.c),baseline $(if $(filter x86_64,$(shell uname -m)),avx2 avx512))
+kernel_o   := $(patsubst %,$(BUILD)/solver/kernel_%.o,$(kernels))
+KERNEL_baseline :=
+KERNEL_avx2     := -march=x86-64-v3
+KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
+
+.PHONY: all help demo test bench deps docs format install clean check-deps
+all: check-deps $(programs)
+
+help:
+	@sed -n '2,/^$$/s/^# \{0,1\}//p' Makefile | sed '/^Settings/,$$d'
+
+# ---- what the system must have --------------------------------------------------------------
+check-deps:
+	@tests/deps check $(PACKAGES)
+
+deps:
+	@tests/deps install $(PACKAGES)
+
+# ---- building -------------------------------------------------------------------------------
+$(BUILD)/libkirsch.a: $(library_o) $(kernel_o)
+	$(Q)rm -f $@ && ar rcs $@ $^
+
+$(BUILD)/%.o: %.c
+	@mkdir -p $(@D)
+	@echo "  cc    $<"
+	$(Q)$(CC) $(ALL_FLAGS) -DKR_VERSION='"$(VERSION)"' -c $< -o $@
+
+$(BUILD)/solver/kernel_%.o: solver/kernel.c
+	@mkdir -p $(@D)
+	@echo "  cc    $< ($*)"
+	$(Q)$(CC) $(ALL_FLAGS) -O3 $(KERNEL_$*) -ffp-contract=fast -DKR_KERNEL=kr_kernel_$* -DKR_KERNEL_NAME='"$*"' -c $< -o $@
+
+define program_rule
+$(BUILD)/$(basename $(notdir $(1))): $(BUILD)/$(basename $(1)).o $(BUILD)/libkirsch.a
+	@echo "  link  $$(@F)"
+	$$(Q)$(CC) $$(CFLAGS) -fopenmp $$< $(BUILD)/libkirsch.a $$(if $$(findstring gmsh,$$(@F)),-lgmsh) $$(LIBS) -o $$@
+endef
+$(foreach c,$(programs_c),$(eval $(call program_rule,$(c))))
+
+$(BUILD)/tests/%: tests/%.c tests/test.h $(BUILD)/libkirsch.a
+	@mkdir -p $(@D)
+	@echo "  test  $<"
+	$(Q)$(CC) $(ALL_FLAGS) -Itests $< $(BUILD)/libkirsch.a $(LIBS) -lcmocka -o $@
+
+# ---- running --------------------------------------------------------------------------------
+demo: deps
+	@$(MAKE) --no-print-directory all
+	@$(BUILD)/kirsch cases/demo/case.yaml $(if $(FULL),--variant full --output out/demo-full)
+
+test: deps
+	@$(MAKE) --no-print-directory all $(tests)
+	@BUILD=$(BUILD) ONLY='$(ONLY)' tests/run
+
+.PHONY: $(tests:%=run-%)
+
+bench: deps
+	@$(MAKE) --no-print-directory all
+	@$(BUILD)/kirsch-bench $(BUILD)/bench.csv
+
+docs: all
+	@$(BUILD)/kirsch --deck-reference > docs/deck.md
+
+format:
+	@clang-format -i $$(git ls-files '*.c' '*.h')
+
+install: all
+	install -d $(PREFIX)/bin
+	install $(programs) $(PREFIX)/bin
+
+clean:
+	rm -rf $(BUILD)
+
+-include $(library_o:.o=.d) $(kernel_o:.o=.d) $(patsubst %.c,$(BUILD)/%.d,$(programs_c)) $(tests:=.d)
