@@ -1,0 +1,448 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Tip, speed and branches of cracks drawn by hand on a lattice: 40 mm x 20 mm, spacing 0.1 mm,
+ * horizon 0.4 mm, steps of 0.02 us, a pre-crack of 2 mm at mid height.
+ */
+#include "test.h"
+
+#include "base/error.h"
+#include "base/h5.h"
+#include "branches.h"
+#include "near.h"
+#include "track.h"
+
+enum { COLUMNS = 400, ROWS = 200, WINDOW = 30 };
+static const double spacing = 1e-4, step = 2e-8;
+
+/** A lattice without damage; nodes in the hole (centre, radius) are left out. */
+static struct kr_record *plate(double hole_x, double hole_y, double radius) {
+    struct kr_record *r = KR_NEW(struct kr_record, 1);
+    r->position = KR_NEW(double, 2 * COLUMNS * ROWS);
+    r->damage_time = KR_NEW(double, COLUMNS *ROWS);
+    for (int k = 0; k < COLUMNS * ROWS; k++) {
+        double x = (k % COLUMNS + 0.5) * spacing, y = (k / COLUMNS + 0.5) * spacing;
+        if (hypot(x - hole_x, y - hole_y) < radius)
+            continue;
+        r->position[2 * r->n] = x;
+        r->position[2 * r->n + 1] = y;
+        r->damage_time[r->n++] = INFINITY;
+    }
+    r->time_step = step;
+    r->steps = 5000;
+    r->spacing = spacing;
+    r->horizon = 4 * spacing;
+    r->rayleigh_speed = 929;
+    r->first_break = INFINITY;
+    return r;
+}
+
+/** A crack from a to b that begins at `start` and runs at speed + acceleration * time; it damages
+ *  the nodes within 0.8 spacings, each at a whole step. speed 0: a pre-crack. */
+static void crack(struct kr_record *r, const double a[2], const double b[2], double start,
+                  double speed, double acceleration) {
+    double length = hypot(b[0] - a[0], b[1] - a[1]);
+    double e[2] = {(b[0] - a[0]) / length, (b[1] - a[1]) / length};
+    for (size_t i = 0; i < r->n; i++) {
+        double d[2] = {r->position[2 * i] - a[0], r->position[2 * i + 1] - a[1]}, time = -1;
+        double s = d[0] * e[0] + d[1] * e[1];
+        if (s < 0 || s > length || fabs(d[0] * e[1] - d[1] * e[0]) > 0.8 * spacing)
+            continue;
+        if (acceleration > 0)
+            time = start + (sqrt(speed * speed + 2 * acceleration * s) - speed) / acceleration;
+        else if (speed > 0)
+            time = start + s / speed;
+        if (time >= 0) {
+            time = step * ceil(time / step);
+            r->first_break = fmin(r->first_break, time);
+        }
+        r->damage_time[i] = fmin(r->damage_time[i], time);
+    }
+}
+
+static const double left[2] = {0, 10e-3}, notch[2] = {2e-3, 10e-3}, right[2] = {40e-3, 10e-3};
+
+static struct kr_record *notched(void) {
+    struct kr_record *r = plate(-1, 0, 0);
+    crack(r, left, notch, 0, 0, 0);
+    return r;
+}
+
+static struct kr_track follow(const struct kr_record *r) {
+    struct kr_track track;
+    struct kr_case_box box = kr_track_whole(r);
+    kr_track_follow(r, &box, WINDOW, &track);
+    return track;
+}
+
+static void finish(struct kr_record *r, struct kr_track *track) {
+    kr_track_clear(track);
+    kr_record_free(r);
+    assert_int_equal(kr_memory_outstanding(), 0);
+}
+
+/* ---- tip and speed ------------------------------------------------------------------------- */
+
+static void test_straight_crack(void **state) {
+    const double start = 20e-6, speed = 437.3;
+    struct kr_record *r = notched();
+    struct kr_track track;
+    (void)state;
+    crack(r, notch, right, start, speed, 0);
+    track = follow(r);
+    kr_check_near(track.mean_speed, speed, 0.01 * speed);
+    /* a window of 0.6 us holds 2.6 spacings: it sees one more or one less */
+    kr_check_near(track.top_speed, speed, spacing / (WINDOW * step));
+    for (size_t k = 1; k < track.count; k++) {
+        double x = notch[0] + speed * ((double)track.tip[k].step * step - start);
+        kr_check_near(r->position[2 * track.tip[k].node], x, spacing);
+        assert_false(track.tip[k].jumped);
+    }
+    assert_int_equal(track.tip[0].step, 0);
+    kr_check_near(track.tip[0].speed, 0, 0); /* waits for longer than the window */
+    finish(r, &track);
+}
+
+/** The speed over a wide window follows a crack that speeds up from 100 m/s to 500 m/s. */
+static void test_accelerating_crack(void **state) {
+    const double start = 5e-6, from = 100, a = (500. * 500 - 100. * 100) / (2 * 38e-3);
+    const int64_t window = 500;
+    struct kr_record *r = notched();
+    struct kr_case_box box = kr_track_whole(r);
+    struct kr_track track;
+    (void)state;
+    crack(r, notch, right, start, from, a);
+    kr_track_follow(r, &box, window, &track);
+    for (size_t k = 5; k < track.count; k++) {
+        double middle = ((double)track.tip[k].step + (double)window / 2) * step;
+        if (track.tip[k].step + window > track.arrival)
+            break;
+        kr_check_near(track.tip[k].speed, from + a * (middle - start),
+                      spacing / ((double)window * step));
+    }
+    kr_check_near(track.mean_speed, 300, 0.01 * 300);
+    finish(r, &track);
+}
+
+static void test_each_direction(void **state) {
+    const double ends[4][2] = {{30e-3, 10e-3}, {10e-3, 10e-3}, {20e-3, 18e-3}, {20e-3, 2e-3}};
+    const double middle[2] = {20e-3, 10e-3};
+    (void)state;
+    for (int d = 0; d < 4; d++) {
+        struct kr_record *r = plate(-1, 0, 0);
+        struct kr_case_box box = kr_track_whole(r);
+        struct kr_track track;
+        box.direction = d;
+        for (int k = 0; k < 4; k++)
+            crack(r, middle, ends[k], 1e-6, 100 * (k + 1), 0);
+        kr_track_follow(r, &box, WINDOW, &track);
+        kr_check_near(track.mean_speed, 100 * (d + 1), 3 * (d + 1));
+        kr_check_near(r->position[2 * track.tip[track.count - 1].node + (size_t)d / 2],
+                      ends[d][d / 2], spacing);
+        finish(r, &track);
+    }
+}
+
+static void test_box_sees_its_branch_alone(void **state) {
+    const double fork[2] = {10e-3, 10e-3}, up[2] = {38e-3, 18e-3}, down[2] = {20e-3, 6e-3};
+    struct kr_record *r = notched();
+    struct kr_case_box box = {{10e-3, 0}, {40e-3, 9.9e-3}, 0};
+    struct kr_track track;
+    (void)state;
+    crack(r, notch, fork, 1e-6, 400, 0);
+    crack(r, fork, up, 21e-6, 500, 0);
+    crack(r, fork, down, 21e-6, 300, 0);
+    kr_track_follow(r, &box, WINDOW, &track);
+    kr_check_near(track.mean_speed, 300, 3);
+    kr_check_near(r->position[2 * track.tip[track.count - 1].node + 1], down[1], spacing);
+    finish(r, &track);
+}
+
+/** Two equal branches take the lead in turns; the tip stays on one of them. */
+static void test_tip_stays_on_its_branch(void **state) {
+    const double fork[2] = {10e-3, 10e-3}, up[2] = {38e-3, 17.03e-3}, down[2] = {38e-3, 3e-3};
+    struct kr_record *r = notched();
+    struct kr_track track;
+    (void)state;
+    crack(r, notch, fork, 1e-6, 500, 0);
+    crack(r, fork, up, 17e-6, 500, 0);
+    crack(r, fork, down, 17e-6, 500, 0);
+    track = follow(r);
+    for (size_t k = 1; k < track.count; k++) {
+        double dy =
+            r->position[2 * track.tip[k].node + 1] - r->position[2 * track.tip[k - 1].node + 1];
+        assert_false(track.tip[k].jumped);
+        assert_true(fabs(dy) <= r->horizon);
+    }
+    kr_check_near(track.top_speed, 500, 1.5 * spacing / (WINDOW * step));
+    finish(r, &track);
+}
+
+static void test_no_damage(void **state) {
+    struct kr_record *r = plate(-1, 0, 0);
+    struct kr_track track = follow(r);
+    (void)state;
+    assert_int_equal(track.count, 0);
+    assert_int_equal(track.arrival, -1);
+    assert_true(isnan(track.mean_speed) && isnan(track.top_speed));
+    assert_int_equal(kr_branches_count(r).branches, 0);
+    assert_int_equal(kr_branches_count(r).cracks, 0);
+    assert_true(kr_branches_count(r).countable);
+    finish(r, &track);
+}
+
+static void test_precrack_that_never_grew(void **state) {
+    struct kr_record *r = notched();
+    struct kr_track track = follow(r);
+    (void)state;
+    assert_int_equal(track.count, 1);
+    assert_true(isnan(track.mean_speed) && isnan(track.top_speed));
+    kr_check_near(r->position[2 * track.tip[0].node], notch[0], spacing);
+    assert_int_equal(kr_branches_count(r).branches, 0);
+    finish(r, &track);
+}
+
+static void test_everything_at_once(void **state) {
+    struct kr_record *r = plate(-1, 0, 0);
+    struct kr_track track;
+    (void)state;
+    for (size_t i = 0; i < r->n; i++)
+        r->damage_time[i] = 40 * step;
+    r->first_break = 40 * step;
+    track = follow(r);
+    assert_int_equal(track.count, 1);
+    assert_true(isnan(track.mean_speed));
+    assert_false(kr_branches_count(r).countable);
+    assert_int_equal(kr_branches_count(r).damaged, r->n);
+    finish(r, &track);
+}
+
+/** The crack stops in a hole of 3 mm, and begins anew 6 us later behind it: one crack, a jump in no
+ *  speed, and a mean as if it had run through. */
+static void test_hole_is_jumped(void **state) {
+    const double rim[2] = {18.45e-3, 10e-3}, behind[2] = {21.55e-3, 10e-3};
+    struct kr_record *r = plate(20e-3, 10e-3, 1.5e-3);
+    struct kr_track track;
+    int jumps = 0;
+    (void)state;
+    crack(r, left, notch, 0, 0, 0);
+    crack(r, notch, rim, 10e-6, 500, 0);
+    crack(r, behind, right, 10e-6 + 16.45e-3 / 500 + 6e-6, 500, 0);
+    track = follow(r);
+    for (size_t k = 0; k < track.count; k++)
+        jumps += track.tip[k].jumped;
+    assert_int_equal(jumps, 1);
+    kr_check_near(track.top_speed, 500, spacing / (WINDOW * step));
+    kr_check_near(track.mean_speed, 38e-3 / (16.45e-3 / 500 + 6e-6 + 18.45e-3 / 500), 3);
+    assert_int_equal(kr_branches_count(r).branches, 1);
+    assert_int_equal(kr_branches_count(r).cracks, 1);
+    finish(r, &track);
+}
+
+/* ---- branches ------------------------------------------------------------------------------ */
+
+static void check_branches(struct kr_record *r, size_t branches, size_t cracks) {
+    struct kr_branches got = kr_branches_count(r);
+    assert_int_equal(got.branches, branches);
+    assert_int_equal(got.cracks, cracks);
+    kr_record_free(r);
+    assert_int_equal(kr_memory_outstanding(), 0);
+}
+
+static void test_one_crack_is_one_branch(void **state) {
+    const double bent[2] = {15e-3, 14e-3}, end[2] = {38e-3, 3.3e-3};
+    struct kr_record *r = notched();
+    (void)state;
+    crack(r, notch, bent, 1e-6, 500, 0);
+    crack(r, bent, end, 40e-6, 500, 0);
+    check_branches(r, 1, 1);
+}
+
+static void test_bifurcations(void **state) {
+    const double fork[2] = {10e-3, 10e-3}, up[2] = {25e-3, 14e-3}, down[2] = {38e-3, 3e-3};
+    const double upper[2] = {38e-3, 19e-3}, lower[2] = {38e-3, 11e-3};
+    struct kr_record *r = notched();
+    (void)state;
+    crack(r, notch, fork, 1e-6, 500, 0);
+    crack(r, fork, up, 17e-6, 500, 0);
+    crack(r, fork, down, 17e-6, 500, 0);
+    assert_int_equal(kr_branches_count(r).branches, 2);
+    crack(r, up, upper, 49e-6, 500, 0);
+    crack(r, up, lower, 49e-6, 500, 0);
+    check_branches(r, 3, 1);
+}
+
+/** A pre-crack in the middle grows both ways: two ends of one crack. */
+static void test_crack_in_the_middle(void **state) {
+    const double a[2] = {18e-3, 10e-3}, b[2] = {22e-3, 10e-3};
+    struct kr_record *r = plate(-1, 0, 0);
+    (void)state;
+    crack(r, a, b, 0, 0, 0);
+    crack(r, a, left, 1e-6, 300, 0);
+    crack(r, b, right, 1e-6, 300, 0);
+    check_branches(r, 2, 1);
+}
+
+static void test_specks_and_twigs_do_not_count(void **state) {
+    struct kr_record *r = notched();
+    (void)state;
+    crack(r, notch, right, 1e-6, 500, 0);
+    for (size_t k = 0; k < 25; k++) { /* specks of one to four nodes, far from the crack */
+        size_t i = 37 + 3163 * k;
+        if (fabs(r->position[2 * i + 1] - 10e-3) > 1e-3)
+            for (size_t j = 0; j <= k % 4; j++)
+                r->damage_time[i + j] = 10e-6 + 1e-6 * (double)k;
+    }
+    for (int k = 1; k < 12; k++) { /* twigs of 0.8 mm, below 3 horizons = 1.2 mm */
+        double foot[2] = {3e-3 * k + 1e-3, 10e-3};
+        double top[2] = {foot[0] + 0.5e-3, 10e-3 + (k % 2 ? 0.65e-3 : -0.65e-3)};
+        crack(r, foot, top, 20e-6, 500, 0);
+    }
+    check_branches(r, 1, 1);
+}
+
+/** Out of one hole come two cracks: two branches of one crack. */
+static void test_two_cracks_leave_a_hole(void **state) {
+    const double rim[2] = {18.45e-3, 10e-3};
+    const double above[2] = {21e-3, 11.25e-3}, below[2] = {21e-3, 8.75e-3};
+    const double upper[2] = {38e-3, 18e-3}, lower[2] = {38e-3, 2e-3};
+    struct kr_record *r = plate(20e-3, 10e-3, 1.5e-3);
+    (void)state;
+    crack(r, left, notch, 0, 0, 0);
+    crack(r, notch, rim, 10e-6, 500, 0);
+    crack(r, above, upper, 50e-6, 500, 0);
+    crack(r, below, lower, 51e-6, 500, 0);
+    check_branches(r, 2, 1);
+}
+
+/** A crack of its own, with material between, counts as a crack and as a branch. */
+static void test_cracks_apart(void **state) {
+    const double a[2] = {15e-3, 4e-3}, b[2] = {35e-3, 4e-3}, end[2] = {30e-3, 10e-3};
+    struct kr_record *r = notched();
+    (void)state;
+    crack(r, notch, end, 1e-6, 500, 0);
+    crack(r, a, b, 20e-6, 500, 0);
+    check_branches(r, 2, 2);
+}
+
+/** Branches that go round an island and meet again are one. */
+static void test_branches_that_meet_again(void **state) {
+    const double fork[2] = {10e-3, 10e-3}, meet[2] = {25e-3, 10e-3};
+    const double up[2] = {17e-3, 13e-3}, down[2] = {17e-3, 7e-3};
+    struct kr_record *r = notched();
+    (void)state;
+    crack(r, notch, fork, 1e-6, 500, 0);
+    crack(r, fork, up, 17e-6, 500, 0);
+    crack(r, fork, down, 17e-6, 500, 0);
+    crack(r, up, meet, 33e-6, 500, 0);
+    crack(r, down, meet, 33e-6, 500, 0);
+    assert_int_equal(kr_branches_count(r).branches, 0); /* a closed loop has no end */
+    crack(r, meet, right, 55e-6, 500, 0);
+    check_branches(r, 1, 1);
+}
+
+/* ---- files and neighbours ------------------------------------------------------------------ */
+
+static char path[] = "/tmp/kirsch-track-XXXXXX";
+
+/** Write what kr_record_read reads, with one fault of choice. */
+static void write_record(const struct kr_record *r, const char *fault) {
+    struct kr_h5 *file = kr_h5_create(path, "kirsch run", 1);
+    double time[2] = {r->first_break, r->first_break + step};
+    kr_h5_set_int64(file, "/", "dim", strcmp(fault, "dim") ? 2 : 3);
+    kr_h5_set_double(file, "/", "time_step", strcmp(fault, "time_step") ? r->time_step : 0);
+    kr_h5_set_int64(file, "/", "steps", r->steps);
+    kr_h5_set_int64(file, "/", "finished", 1);
+    kr_h5_set_double(file, "/", "horizon", r->horizon);
+    kr_h5_set_double(file, "/", "spacing", r->spacing);
+    kr_h5_set_double(file, "/", "rayleigh_speed", r->rayleigh_speed);
+    kr_h5_set_int64(file, "/", "bonds", 77);
+    kr_h5_write_double(file, "/nodes/position", r->n, 2, r->position);
+    if (strcmp(fault, "nan") == 0)
+        r->damage_time[5] = NAN;
+    if (strcmp(fault, "missing") != 0)
+        kr_h5_write_double(file, "/crack/Damage_Time", r->n, 0, r->damage_time);
+    kr_h5_write_double(file, "/crack/bond_time", 2, 0, time);
+    kr_h5_close(file);
+}
+
+static void read_record(void *unused) {
+    (void)unused;
+    kr_record_free(kr_record_read(path));
+}
+
+static void test_reads_a_run(void **state) {
+    struct kr_record *r = notched(), *got;
+    int handle = mkstemp(path);
+    (void)state;
+    close(handle);
+    crack(r, notch, right, 20e-6, 400, 0);
+    write_record(r, "");
+    got = kr_record_read(path);
+    assert_int_equal(got->n, r->n);
+    assert_memory_equal(got->position, r->position, 2 * r->n * sizeof(double));
+    assert_memory_equal(got->damage_time, r->damage_time, r->n * sizeof(double));
+    assert_int_equal(got->broken, 2);
+    assert_int_equal(got->bonds, 77);
+    assert_true(got->finished && got->first_break == r->first_break);
+    kr_record_free(got);
+    write_record(r, "dim");
+    kr_check_stops(read_record, NULL, KR_EXIT_INPUT, "has 3 dimensions");
+    write_record(r, "time_step");
+    kr_check_stops(read_record, NULL, KR_EXIT_INPUT, "`time_step` is 0");
+    write_record(r, "missing");
+    kr_check_stops(read_record, NULL, KR_EXIT_INPUT, "/crack/Damage_Time: there is no such array");
+    write_record(r, "nan");
+    kr_check_stops(read_record, NULL, KR_EXIT_INPUT, "node 5 at");
+    kr_record_free(r);
+    unlink(path);
+    assert_int_equal(kr_memory_outstanding(), 0);
+}
+
+static void test_near_finds_all(void **state) {
+    enum { N = 700 };
+    double x[2 * N];
+    struct kr_near *near;
+    (void)state;
+    srand(7);
+    for (int i = 0; i < 2 * N; i++)
+        x[i] = (double)rand() / RAND_MAX * (i % 2 ? 0.3 : 2);
+    near = kr_near_create(N, x, 0.11);
+    for (int i = 0; i < N; i++) {
+        size_t count, wanted = 0;
+        const size_t *found = kr_near_find(near, x + 2 * i, &count);
+        for (int j = 0; j < N; j++)
+            wanted += hypot(x[2 * j] - x[2 * i], x[2 * j + 1] - x[2 * i + 1]) <= 0.11;
+        assert_int_equal(count, wanted);
+        for (size_t k = 0; k < count; k++)
+            assert_true(hypot(x[2 * found[k]] - x[2 * i], x[2 * found[k] + 1] - x[2 * i + 1]) <=
+                        0.11);
+    }
+    assert_false(kr_near_any(near, (double[2]){1, 0.42}));
+    assert_false(kr_near_any(near, (double[2]){-5, -5}));
+    kr_near_free(near);
+    assert_int_equal(kr_memory_outstanding(), 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_straight_crack),
+        cmocka_unit_test(test_accelerating_crack),
+        cmocka_unit_test(test_each_direction),
+        cmocka_unit_test(test_box_sees_its_branch_alone),
+        cmocka_unit_test(test_tip_stays_on_its_branch),
+        cmocka_unit_test(test_no_damage),
+        cmocka_unit_test(test_precrack_that_never_grew),
+        cmocka_unit_test(test_everything_at_once),
+        cmocka_unit_test(test_hole_is_jumped),
+        cmocka_unit_test(test_one_crack_is_one_branch),
+        cmocka_unit_test(test_bifurcations),
+        cmocka_unit_test(test_crack_in_the_middle),
+        cmocka_unit_test(test_specks_and_twigs_do_not_count),
+        cmocka_unit_test(test_two_cracks_leave_a_hole),
+        cmocka_unit_test(test_cracks_apart),
+        cmocka_unit_test(test_branches_that_meet_again),
+        cmocka_unit_test(test_reads_a_run),
+        cmocka_unit_test(test_near_finds_all),
+    };
+    kr_run_tests(tests);
+}
