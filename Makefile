@@ -14,6 +14,7 @@
 # Settings: CC, CFLAGS, PREFIX, V=1 (show commands), SANITIZE=1 (address and undefined behaviour).
 # Sources are found by wildcard: a new file needs no change here. A file named kirsch-*.c is a program.
 
+MAKEFLAGS += --no-builtin-rules
 BUILD    ?= build
 PREFIX   ?= /usr/local
 CC       ?= cc
@@ -96,8 +97,6 @@ demo: deps
 test: deps
 	@$(MAKE) --no-print-directory all $(tests)
 	@BUILD=$(BUILD) ONLY='$(ONLY)' tests/run
-
-.PHONY: $(tests:%=run-%)
 
 bench: deps
 	@$(MAKE) --no-print-directory all

@@ -21,16 +21,11 @@ const size_t kr_laws_count = sizeof kr_laws / sizeof kr_laws[0];
 
 /* One row a model: c = micromodulus E/(pi delta^3), s0 = sqrt(stretch pi G0/(E delta)). */
 static const struct {
-    const char *name;
     double poissons_ratio, micromodulus, stretch;
 } models[] = {
-    [KR_PLANE_STRESS] = {"plane-stress", 1.0 / 3, 9.0, 4.0 / 9},
-    [KR_PLANE_STRAIN] = {"plane-strain", 1.0 / 4, 48.0 / 5, 5.0 / 12},
+    [KR_PLANE_STRESS] = {1.0 / 3, 9.0, 4.0 / 9},
+    [KR_PLANE_STRAIN] = {1.0 / 4, 48.0 / 5, 5.0 / 12},
 };
-
-const char *kr_model_name(int model) {
-    return models[model].name;
-}
 
 const struct kr_law *kr_law_named(const char *name) {
     for (size_t k = 0; k < kr_laws_count; k++)

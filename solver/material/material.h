@@ -54,7 +54,4 @@ struct kr_material kr_material_make(const struct kr_law *law, int model, double 
 /** The material of a case; an unknown law is a fault of the deck. */
 struct kr_material kr_material_of(struct kr_deck *deck, const struct kr_case *c);
 
-/** Deck word of a model: "plane-stress". */
-const char *kr_model_name(int model);
-
 #endif
