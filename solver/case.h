@@ -107,17 +107,26 @@ extern const struct kr_deck_key kr_case_keys[];
 struct kr_case_arguments {
     const char *deck, *variant, *folder; /* folder: --output, over the deck's */
     size_t n_set;
-    const char **set;
+    const char **set;   /* `set` and `left` are owned by the caller (kr_free) */
     int check, explain; /* --check, --explain */
     size_t n_left;      /* what the program itself must understand: it stops on unknown ones */
     const char **left;
 };
 
 /** Read `program [--variant V] [--set key=value]... [--output DIR] [--check] [--explain] [--help]
- *  [--version] case.yaml`. --help prints `usage` and exits 0; faults stop (exit 2). */
+ *  [--version] case.yaml`. --help prints `usage` and exits 0; faults stop (exit 2). The deck is the
+ *  first argument that ends in .yaml or .yml, else the first that is no option. */
 void kr_case_arguments(int argc, char **argv, const char *usage, struct kr_case_arguments *out);
 
-/** Open the deck, read and check it whole; faults stop (exit 2). The folder is made. */
+/** Check what no single key can tell: horizon against spacing, loads against sets. Faults are
+ *  collected in the deck. `c` must be the struct that the deck was read into. */
+void kr_case_check(struct kr_deck *deck, const struct kr_case *c);
+
+/** Warn of what is doubtful in a case without faults. */
+void kr_case_warn(struct kr_deck *deck, const struct kr_case *c);
+
+/** Open the deck, read and check it whole; faults stop (exit 2). With `check` it says that there
+ *  are none and exits 0. The folder is made, unless the case is only to be explained. */
 struct kr_deck *kr_case_open(const struct kr_case_arguments *arguments, struct kr_case *out);
 
 /** Path of a file in the case's folder, owned by the caller: kr_case_file(c, "plate.msh"). */

@@ -103,6 +103,9 @@ int kr_deck_given(const struct kr_deck *deck, const void *field);
  *  the deck. */
 const char *kr_deck_where(struct kr_deck *deck, const void *field);
 
+/** Hand a text of kr_text over to the deck: it is freed with it. Returns it. */
+const char *kr_deck_keep(struct kr_deck *deck, char *text);
+
 /** Number of faults so far. */
 size_t kr_deck_faults(const struct kr_deck *deck);
 

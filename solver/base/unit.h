@@ -18,6 +18,15 @@ int kr_unit_read(const char *text, const char *unit, double *value, char **why);
 /** Factor from the unit written in text to the SI unit; 0 where they do not convert. */
 double kr_unit_factor(const char *text, const char *unit);
 
+/** What people call a quantity of this SI unit, "a length" for "m", and a unit that it is commonly
+ *  written in, "mm"; for messages. Static texts. */
+const char *kr_unit_noun(const char *unit);
+const char *kr_unit_common(const char *unit);
+
+/** End of the decimal number that begins a text, and its value; NULL where none begins it, and for
+ *  hexadecimal, infinite and not-a-number, which no quantity in a deck is. */
+const char *kr_unit_number(const char *text, double *value);
+
 /** Free what udunits2 keeps. */
 void kr_unit_close(void);
 

@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * "Did you mean": the key nearest to one that is unknown, by Levenshtein's distance.
+ */
+#include "base/deck_private.h"
+#include "base/memory.h"
+
+#include <ctype.h>
+#include <string.h>
+
+/* Longer names are no misspelt keys. */
+enum { LONGEST = 64 };
+
+static int letter(char c) {
+    return c == '_' || c == ' ' ? '-' : tolower((unsigned char)c);
+}
+
+size_t kr_deck_distance(const char *a, const char *b) {
+    size_t row[LONGEST + 1], n = strlen(a), m = strlen(b);
+    if (n > LONGEST || m > LONGEST)
+        return LONGEST;
+    for (size_t j = 0; j <= m; j++)
+        row[j] = j;
+    for (size_t i = 1; i <= n; i++) {
+        size_t diagonal = row[0];
+        row[0] = i;
+        for (size_t j = 1; j <= m; j++) {
+            size_t best = diagonal + (letter(a[i - 1]) != letter(b[j - 1]));
+            diagonal = row[j];
+            if (row[j] + 1 < best)
+                best = row[j] + 1;
+            if (row[j - 1] + 1 < best)
+                best = row[j - 1] + 1;
+            row[j] = best;
+        }
+    }
+    return row[m];
+}
+
+/* Near: at most a third of the letters differ. */
+static int is_near(const char *name, const char *known) {
+    return 3 * kr_deck_distance(name, known) <= strlen(known);
+}
+
+const struct kr_deck_key *kr_deck_row(const struct kr_deck_key *keys, const char *name) {
+    for (; keys->name; keys++)
+        if (!strcmp(keys->name, name))
+            return keys;
+    return NULL;
+}
+
+const struct kr_deck_key *kr_deck_nearest(const struct kr_deck_key *keys, const char *name) {
+    const struct kr_deck_key *best = NULL;
+    for (; keys->name; keys++)
+        if (is_near(name, keys->name) &&
+            (!best || kr_deck_distance(name, keys->name) < kr_deck_distance(name, best->name)))
+            best = keys;
+    return best;
+}
+
+char *kr_deck_elsewhere(const struct kr_deck_key *keys, const char *name, int near) {
+    const struct kr_deck_key *here = near ? kr_deck_nearest(keys, name) : kr_deck_row(keys, name);
+    if (here)
+        return kr_text_copy(here->name);
+    for (; keys->name; keys++) {
+        char *below = keys->keys ? kr_deck_elsewhere(keys->keys, name, near) : NULL;
+        if (below) {
+            const char *between = keys->type == KR_DECK_LIST  ? ".0."
+                                  : keys->type == KR_DECK_MAP ? ".NAME."
+                                                              : ".";
+            char *path = kr_text("%s%s%s", keys->name, between, below);
+            kr_free(below);
+            return path;
+        }
+    }
+    return NULL;
+}
+
+/* All names of a table, "grid, spacing, padding", owned by the caller. */
+static char *names_of(const struct kr_deck_key *keys) {
+    char *names = kr_text_copy("");
+    for (size_t i = 0; keys[i].name; i++) {
+        char *more = kr_text("%s%s%s", names, i ? ", " : "", keys[i].name);
+        kr_free(names);
+        names = more;
+    }
+    return names;
+}
+
+/* "'spacing' belongs to section 'mesh'", or "did you mean 'mesh.spacing'?". NULL: not known. */
+static char *belongs(const struct kr_deck_key *all, const char *name, int near) {
+    char *path = kr_deck_elsewhere(all, name, near);
+    if (!path)
+        return NULL;
+    char *dot = strrchr(path, '.'), *sentence;
+    if (near || !dot) {
+        sentence =
+            kr_text(near ? "did you mean '%s'?" : "'%s' belongs to the top of the deck", path);
+    } else {
+        *dot = 0;
+        sentence = kr_text("'%s' belongs to section '%s'", name, path);
+    }
+    kr_free(path);
+    return sentence;
+}
+
+void kr_deck_unknown(struct kr_deck *deck, const struct kr_deck_key *keys, const char *name,
+                     struct kr_deck_mark at, const char *path) {
+    const struct kr_deck_key *near = kr_deck_nearest(keys, name);
+    int same = near && !kr_deck_distance(name, near->name); /* Horizon, time-step */
+    char *cure = same ? NULL : belongs(deck->keys, name, 0);
+    if (!cure && near)
+        cure = kr_text("did you mean '%s'?", near->name);
+    if (!cure)
+        cure = belongs(deck->keys, name, 1);
+    if (!cure) {
+        char *names = names_of(keys);
+        cure = kr_text("known here: %s", names);
+        kr_free(names);
+    }
+    kr_deck_complain(deck, at, path, "unknown key; %s", cure);
+    kr_free(cure);
+}

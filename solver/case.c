@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * The table of the deck's keys: what they are called, what they hold, in which range, and what they
+ * mean. docs/deck.md is printed from it; checks that need more than one key are in case_check.c.
+ */
+#include "case.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#define AT(field) offsetof(struct kr_case, field)
+#define POSITIVE .least = 0, .most = INFINITY, .exclusive = 1
+#define NOT_NEGATIVE .least = 0, .most = INFINITY
+#define VECTOR_OF(where) .type = KR_DECK_VECTOR, .offset = (where), .unit = "m", .count = 2
+#define NUMBER_OF(where, si) .type = KR_DECK_NUMBER, .offset = (where), .unit = (si)
+#define LIST_OF(what, type_, keys_)                                                                \
+    .type = (what), .item_size = sizeof(type_), .keys = (keys_), .fallback = ""
+
+static const struct kr_deck_key hole_keys[] = {
+    {"centre", VECTOR_OF(offsetof(struct kr_case_hole, centre)),
+     .text = "Centre; it may lie outside the plate, for a notch in its edge."},
+    {"radius", NUMBER_OF(offsetof(struct kr_case_hole, radius), "m"), POSITIVE, .text = "Radius."},
+    {NULL},
+};
+
+#define PORES_AT(field) offsetof(struct kr_case_pores, field)
+static const struct kr_deck_key pores_keys[] = {
+    {"count", KR_DECK_INTEGER, PORES_AT(count), .fallback = "0", .least = 0, .most = 1e6,
+     .text = "How many pores kirsch-pores throws at random; 0: none."},
+    {"radius", VECTOR_OF(PORES_AT(radius)), .fallback = "", POSITIVE,
+     .text =
+         "Least and largest radius; drawn evenly between the two. Needed where there are pores."},
+    {"edge_diameters", NUMBER_OF(PORES_AT(edge_diameters), "1"), .fallback = "1", NOT_NEGATIVE,
+     .text = "Least distance of a centre from the edges of the plate, in diameters of the pore."},
+    {"gap", NUMBER_OF(PORES_AT(gap), "m"), .fallback = "0.3 mm", NOT_NEGATIVE,
+     .text = "Least distance between the rims of two holes."},
+    {"seed", KR_DECK_INTEGER, PORES_AT(seed), .fallback = "1", .least = 0, .most = 9e15,
+     .text = "Equal seeds give equal pores on every machine."},
+    {"attempts", KR_DECK_INTEGER, PORES_AT(attempts), .fallback = "100000", .least = 1,
+     .most = 1e12, .text = "Throws before kirsch-pores gives up, all pores together."},
+    {NULL},
+};
+
+static const struct kr_deck_key geometry_keys[] = {
+    {"width", NUMBER_OF(AT(width), "m"), POSITIVE,
+     .text = "Width of the plate (x). Its lower left corner is the origin."},
+    {"height", NUMBER_OF(AT(height), "m"), POSITIVE, .text = "Height of the plate (y)."},
+    {"holes", LIST_OF(KR_DECK_LIST, struct kr_case_hole, hole_keys), .offset = AT(holes),
+     .text = "Round holes at given places."},
+    {"pores", KR_DECK_SECTION, AT(pores), .keys = pores_keys,
+     .text = "Round holes at random places."},
+    {NULL},
+};
+
+static const struct kr_deck_key mesh_keys[] = {
+    {"grid", KR_DECK_CHOICE, AT(grid), .words = "near-boundary uniform",
+     .fallback = "near-boundary",
+     .text = "`near-boundary`: a square lattice, cut out around each hole and filled there with "
+             "cells that follow the rim; `uniform`: the lattice alone, with jagged holes."},
+    {"spacing", NUMBER_OF(AT(spacing), "m"), POSITIVE, .text = "Spacing of the lattice."},
+    {"padding", NUMBER_OF(AT(padding), "m"), .fallback = "", NOT_NEGATIVE,
+     .text = "From the rim of a hole to the edge of the box that is meshed around it; not given "
+             "or 0: the horizon."},
+    {NULL},
+};
+
+#define SET_AT(field) offsetof(struct kr_case_set, field)
+static const struct kr_deck_key set_keys[] = {
+    {"within", NUMBER_OF(SET_AT(within), "m"), .fallback = "", POSITIVE,
+     .text = "Nodes within this distance of a boundary. Goes with `of`."},
+    {"of", KR_DECK_TEXT, SET_AT(of), .fallback = "",
+     .text = "Name of the boundary in the mesh: `left`, `right`, `top`, `bottom`, `hole_1`, ..."},
+    {"lower", VECTOR_OF(SET_AT(lower)), .fallback = "",
+     .text = "Or nodes in a box: its lower left corner. Goes with `upper`."},
+    {"upper", VECTOR_OF(SET_AT(upper)), .fallback = "", .text = "Its upper right corner."},
+    {NULL},
+};
+
+static const struct kr_deck_key nodes_keys[] = {
+    {"horizon", NUMBER_OF(AT(horizon), "m"), POSITIVE,
+     .text = "Reach of the bonds; 3 to 6 spacings, at least 2."},
+    {"partial_volume", KR_DECK_CHOICE, AT(partial_volume), .words = "hhb none", .fallback = "hhb",
+     .text = "Share of a cell that counts where the horizon cuts it: `hhb`, linear over the "
+             "half width of the cell, the mean of both ends of a bond; `none`: all or nothing."},
+    {"surface_correction", KR_DECK_CHOICE, AT(surface_correction), .words = "energy none",
+     .fallback = "energy",
+     .text = "`energy`: bonds near a surface are stiffened until the energy of a homogeneous "
+             "deformation is right there too; `none`."},
+    {"surface_deformation", KR_DECK_CHOICE, AT(surface_deformation),
+     .words = "uniaxial-y uniaxial-x isotropic mean-over-axes", .fallback = "uniaxial-y",
+     .text = "The homogeneous deformation of the energy correction; take the direction of the "
+             "load."},
+    {"sets", LIST_OF(KR_DECK_MAP, struct kr_case_set, set_keys), .offset = AT(sets),
+     .text = "Named sets of nodes, for loads and no-fail zones: `top: {within: 0.3 mm, of: top}` "
+             "or `{lower: [0 mm, 0 mm], upper: [1 mm, 2 mm]}`."},
+    {NULL},
+};
+
+static const struct kr_deck_key material_keys[] = {
+    {"law", KR_DECK_TEXT, AT(law), .fallback = "pmb",
+     .text = "Material law; `pmb`: prototype microelastic brittle, with a constant micromodulus."},
+    {"model", KR_DECK_CHOICE, AT(model), .words = "plane-stress plane-strain",
+     .text = "Thin or thick plate. Bonds fix Poisson's ratio: 1/3 in plane stress, 1/4 in plane "
+             "strain."},
+    {"youngs_modulus", NUMBER_OF(AT(youngs_modulus), "Pa"), POSITIVE, .text = "Young's modulus."},
+    {"density", NUMBER_OF(AT(density), "kg/m^3"), POSITIVE, .text = "Density."},
+    {"fracture_energy", NUMBER_OF(AT(fracture_energy), "J/m^2"), .fallback = "0 J/m^2",
+     NOT_NEGATIVE, .text = "Energy of a unit of crack area, G0; 0: the plate does not break."},
+    {NULL},
+};
+
+static const struct kr_deck_key crack_keys[] = {
+    {"from", VECTOR_OF(offsetof(struct kr_case_crack, from)), .text = "One end."},
+    {"to", VECTOR_OF(offsetof(struct kr_case_crack, to)), .text = "The other end."},
+    {NULL},
+};
+
+static const struct kr_deck_key cracks_keys[] = {
+    {"precracks", LIST_OF(KR_DECK_LIST, struct kr_case_crack, crack_keys), .offset = AT(cracks),
+     .text = "Straight cracks that are there from the beginning: they cut every bond that "
+             "crosses them."},
+    {"count_precrack", KR_DECK_BOOLEAN, AT(count_precrack), .fallback = "true",
+     .text = "Whether the bonds cut by them count as broken in Damage."},
+    {NULL},
+};
+
+#define LOAD_AT(field) offsetof(struct kr_case_load, field)
+#define LOAD_OF(where, si)                                                                         \
+    .type = KR_DECK_FORMULAS, .offset = (where), .unit = (si), .count = 2, .fallback = ""
+static const struct kr_deck_key load_keys[] = {
+    {"set", KR_DECK_TEXT, LOAD_AT(set), .text = "Name of a set under `nodes.sets`."},
+    {"displacement", LOAD_OF(LOAD_AT(displacement), "m"),
+     .text = "Prescribed displacement `[x, y]`; `free` leaves a component out."},
+    {"velocity", LOAD_OF(LOAD_AT(velocity), "m/s"), .text = "Prescribed velocity `[x, y]`."},
+    {"traction", LOAD_OF(LOAD_AT(traction), "Pa"),
+     .text = "Force per area of the boundary that the set belongs to, spread over its nodes."},
+    {"body_force", LOAD_OF(LOAD_AT(body_force), "N/m^3"), .text = "Force per volume."},
+    {"ramp", NUMBER_OF(LOAD_AT(ramp), "s"), .fallback = "0 s", NOT_NEGATIVE,
+     .text = "The load grows evenly from 0 to its full value in this time; 0: at once."},
+    {NULL},
+};
+
+static const struct kr_deck_key solver_keys[] = {
+    {"end_time", NUMBER_OF(AT(end_time), "s"), POSITIVE, .text = "Time at which the run ends."},
+    {"time_step", NUMBER_OF(AT(time_step), "s"), .fallback = "0 s", NOT_NEGATIVE,
+     .text = "Step of velocity-Verlet; 0: the largest stable step times `safety_factor`."},
+    {"safety_factor", NUMBER_OF(AT(safety_factor), "1"), .fallback = "0.8", .least = 0, .most = 1,
+     .exclusive = 1, .text = "Share of the largest stable step that is taken."},
+    {NULL},
+};
+
+static const struct kr_deck_key output_keys[] = {
+    {"folder", KR_DECK_TEXT, AT(folder), .fallback = "",
+     .text = "Folder of all results, made where it is missing; seen from where the program is "
+             "called. Not given: `out/` and the name of the folder of the deck."},
+    {"every", NUMBER_OF(AT(output_every), "s"), .fallback = "", POSITIVE,
+     .text = "Time between two outputs of the fields. Without it and `at`: beginning and end "
+             "alone."},
+    {"at", KR_DECK_NUMBERS, AT(output_at), "s", .fallback = "", NOT_NEGATIVE,
+     .text = "Further times at which the fields are written."},
+    {"history_every", NUMBER_OF(AT(history_every), "s"), .fallback = "0 s", NOT_NEGATIVE,
+     .text = "Time between two lines of history.csv; 0: every 20 steps."},
+    {"damage_threshold", NUMBER_OF(AT(damage_threshold), "1"), .fallback = "0.35", .least = 0,
+     .most = 1, .exclusive = 1,
+     .text = "Damage from which a node counts as cracked: the time at which it passes is "
+             "recorded."},
+    {NULL},
+};
+
+#define BOX_AT(field) offsetof(struct kr_case_box, field)
+static const struct kr_deck_key box_keys[] = {
+    {"lower", VECTOR_OF(BOX_AT(lower)), .text = "Lower left corner."},
+    {"upper", VECTOR_OF(BOX_AT(upper)), .text = "Upper right corner."},
+    {"direction", KR_DECK_CHOICE, BOX_AT(direction), .words = "+x -x +y -y",
+     .text = "Where the crack runs to: its tip is the cracked node farthest that way."},
+    {NULL},
+};
+
+static const struct kr_deck_key track_keys[] = {
+    {"window", KR_DECK_INTEGER, AT(window), .fallback = "30", .least = 1, .most = 1e9,
+     .text = "Steps over which a crack's speed is taken."},
+    {"boxes", LIST_OF(KR_DECK_LIST, struct kr_case_box, box_keys), .offset = AT(boxes),
+     .text = "Parts of the plate in which one crack tip each is followed."},
+    {NULL},
+};
+
+const struct kr_deck_key kr_case_keys[] = {
+    {"title", KR_DECK_TEXT, AT(title), .fallback = "", .text = "A line for people."},
+    {"no_fail", KR_DECK_TEXTS, AT(no_fail), .fallback = "",
+     .text = "Names of sets whose bonds never break, such as those that carry the load."},
+    {"geometry", KR_DECK_SECTION, .keys = geometry_keys, .text = "The plate and its holes."},
+    {"mesh", KR_DECK_SECTION, .keys = mesh_keys, .text = "How kirsch-mesh cuts it into cells."},
+    {"nodes", KR_DECK_SECTION, .keys = nodes_keys,
+     .text = "How kirsch-nodes turns cells into peridynamic nodes."},
+    {"material", KR_DECK_SECTION, .keys = material_keys, .text = "What the plate is made of."},
+    {"cracks", KR_DECK_SECTION, .keys = cracks_keys, .text = "Cracks before the run."},
+    {"loads", LIST_OF(KR_DECK_LIST, struct kr_case_load, load_keys), .offset = AT(loads),
+     .text = "What moves or pulls the plate. Each load has a set and just one of displacement, "
+             "velocity, traction and body_force."},
+    {"solver", KR_DECK_SECTION, .keys = solver_keys, .text = "Time integration."},
+    {"output", KR_DECK_SECTION, .keys = output_keys, .text = "What is written, and where."},
+    {"track", KR_DECK_SECTION, .keys = track_keys, .text = "How kirsch-track follows cracks."},
+    {NULL},
+};

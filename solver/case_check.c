@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Checks of a case that need more than one key. Faults join those of the reader; what is doubtful
+ * but possible is a warning.
+ */
+#include "base/error.h"
+#include "case.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* More nodes than 31-bit indices of neighbours can name. */
+static const double most_nodes = 2e9;
+
+/* Quotients of decimals miss by a few bits: 0.16 mm holds "3 spacings" of 0.16/3 mm. */
+static const double rounding = 1e-9;
+
+static double larger(const double *of) {
+    return of[0] > of[1] ? of[0] : of[1];
+}
+
+static void check_mesh(struct kr_deck *deck, const struct kr_case *c) {
+    double narrow = fmin(c->width, c->height);
+    if (!(c->spacing > 0) || !(narrow > 0))
+        return; /* a fault of the reader */
+    if (c->spacing > narrow / 2)
+        kr_deck_fault(deck, &c->spacing,
+                      "%g m is more than half of the plate's narrower side of %g m; a plate needs "
+                      "many cells across",
+                      c->spacing, narrow);
+    else if (c->width / c->spacing * (c->height / c->spacing) > most_nodes)
+        kr_deck_fault(deck, &c->spacing,
+                      "%g m gives %.2g nodes on this plate, more than %g; take a coarser spacing",
+                      c->spacing, c->width / c->spacing * (c->height / c->spacing), most_nodes);
+    if (c->horizon > 0 && c->horizon < 2 * c->spacing * (1 - rounding))
+        kr_deck_fault(deck, &c->horizon,
+                      "%g m is %.3g spacings; it must be at least 2, and 3 to 6 are usual",
+                      c->horizon, c->horizon / c->spacing);
+    if (c->horizon > narrow)
+        kr_deck_fault(deck, &c->horizon, "%g m is more than the plate's narrower side of %g m",
+                      c->horizon, narrow);
+}
+
+/* Distance from the plate; 0 within it. */
+static double beyond_plate(const struct kr_case *c, const double *p) {
+    double x = fmax(fmax(-p[0], p[0] - c->width), 0), y = fmax(fmax(-p[1], p[1] - c->height), 0);
+    return hypot(x, y);
+}
+
+static void check_holes(struct kr_deck *deck, const struct kr_case *c) {
+    const struct kr_case_hole *holes = c->holes.item;
+    for (size_t i = 0; i < c->holes.count && c->width > 0 && c->height > 0; i++) {
+        const struct kr_case_hole *hole = &holes[i];
+        if (!(hole->radius > 0))
+            continue;
+        if (2 * hole->radius > fmax(c->width, c->height))
+            kr_deck_fault(deck, &hole->radius,
+                          "the hole's diameter of %g m is more than the plate's longer side",
+                          2 * hole->radius);
+        else if (beyond_plate(c, hole->centre) >= hole->radius)
+            kr_deck_fault(deck, hole->centre,
+                          "the hole lies outside the plate of %g m x %g m, %g m from it", c->width,
+                          c->height, beyond_plate(c, hole->centre) - hole->radius);
+    }
+}
+
+static void check_pores(struct kr_deck *deck, const struct kr_case *c) {
+    const struct kr_case_pores *pores = &c->pores;
+    double least = pores->radius[0], most = pores->radius[1];
+    if (!pores->count)
+        return;
+    if (!kr_deck_given(deck, pores->radius)) {
+        kr_deck_fault(deck, pores->radius,
+                      "missing; expected least and largest radius, such as [0.2 mm, 0.5 mm]");
+        return;
+    }
+    if (least > most)
+        kr_deck_fault(deck, pores->radius, "the least, %g m, is more than the largest, %g m", least,
+                      most);
+    else if (2 * most > fmin(c->width, c->height) && c->width > 0 && c->height > 0)
+        kr_deck_fault(deck, &pores->radius[1],
+                      "a pore of %g m in diameter does not fit into the plate", 2 * most);
+    else if ((double)pores->count * M_PI * least * least > c->width * c->height)
+        kr_deck_fault(deck, &pores->count,
+                      "%lld pores of %g m in radius have more area than the plate",
+                      (long long)pores->count, least);
+}
+
+/* Letters, digits, _ and -: a name becomes a dataset of HDF5 and a column of CSV. */
+static int is_name(const char *text) {
+    const char *good = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+    return *text && !text[strspn(text, good)];
+}
+
+static void check_box(struct kr_deck *deck, const double *lower, const double *upper) {
+    for (int k = 0; k < 2; k++)
+        if (!(lower[k] < upper[k]))
+            kr_deck_fault(deck, upper, "%c = %g m is not above that of `lower`, %g m", "xy"[k],
+                          upper[k], lower[k]);
+}
+
+static void check_set(struct kr_deck *deck, const struct kr_case_set *set) {
+    int within = kr_deck_given(deck, &set->within), of = kr_deck_given(deck, &set->of);
+    int lower = kr_deck_given(deck, set->lower), upper = kr_deck_given(deck, set->upper);
+    if (!is_name(set->name))
+        kr_deck_fault(deck, &set->name,
+                      "a set's name may have letters, digits, '_' and '-', no others");
+    if ((within || of) && (lower || upper))
+        kr_deck_fault(deck, &set->name,
+                      "both a boundary (within, of) and a box (lower, upper); a "
+                      "set is one of them");
+    else if (within != of)
+        kr_deck_fault(deck, &set->name, "'%s' goes with '%s', which is missing",
+                      within ? "within" : "of", within ? "of" : "within");
+    else if (lower != upper)
+        kr_deck_fault(deck, &set->name, "'%s' goes with '%s', which is missing",
+                      lower ? "lower" : "upper", lower ? "upper" : "lower");
+    else if (lower)
+        check_box(deck, set->lower, set->upper);
+    else if (!within)
+        kr_deck_fault(deck, &set->name,
+                      "empty; expected 'within' and 'of', or 'lower' and 'upper'");
+    if (of && set->of && !is_name(set->of))
+        kr_deck_fault(deck, &set->of,
+                      "found '%.40s', expected the name of a boundary, such as 'top'", set->of);
+}
+
+static const struct kr_case_set *set_named(const struct kr_case *c, const char *name) {
+    const struct kr_case_set *sets = c->sets.item;
+    for (size_t i = 0; i < c->sets.count; i++)
+        if (!strcmp(sets[i].name, name))
+            return &sets[i];
+    return NULL;
+}
+
+/* A set that is referred to must be there. `place` is where it is named. */
+static void check_reference(struct kr_deck *deck, const struct kr_case *c,
+                            const char *const *place) {
+    const struct kr_case_set *sets = c->sets.item;
+    if (!*place || set_named(c, *place))
+        return;
+    char known[256] = "";
+    for (size_t i = 0; i < c->sets.count; i++) {
+        size_t used = strlen(known);
+        snprintf(known + used, sizeof known - used, "%s'%.40s'", i ? ", " : "", sets[i].name);
+    }
+    kr_deck_fault(deck, place, "no set is called '%.40s'; nodes.sets has %s", *place,
+                  *known ? known : "none");
+}
+
+static void check_load(struct kr_deck *deck, const struct kr_case *c,
+                       const struct kr_case_load *load) {
+    const struct kr_deck_formula *kinds[] = {load->displacement, load->velocity, load->traction,
+                                             load->body_force};
+    const struct kr_deck_formula *first = NULL;
+    int count = 0;
+    for (int i = 0; i < 4; i++)
+        if (kr_deck_given(deck, kinds[i])) {
+            if (count++)
+                kr_deck_fault(deck, kinds[i],
+                              "a load has just one of displacement, velocity, traction and "
+                              "body_force; make it a load of its own");
+            else
+                first = kinds[i];
+        }
+    if (!count)
+        kr_deck_fault(deck, &load->set,
+                      "the load does nothing; expected one of displacement, velocity, traction and "
+                      "body_force");
+    else if (first[0].is_free && (first[1].is_free || !first[1].text))
+        kr_deck_fault(deck, first, "all components are free; the load does nothing");
+    check_reference(deck, c, &load->set);
+}
+
+static void check_sets_and_loads(struct kr_deck *deck, const struct kr_case *c) {
+    const struct kr_case_set *sets = c->sets.item;
+    const struct kr_case_load *loads = c->loads.item;
+    const char *const *names = c->no_fail.item;
+    for (size_t i = 0; i < c->sets.count; i++)
+        check_set(deck, &sets[i]);
+    for (size_t i = 0; i < c->loads.count; i++)
+        check_load(deck, c, &loads[i]);
+    for (size_t i = 0; i < c->no_fail.count; i++)
+        check_reference(deck, c, &names[i]);
+}
+
+static void check_cracks(struct kr_deck *deck, const struct kr_case *c) {
+    const struct kr_case_crack *cracks = c->cracks.item;
+    for (size_t i = 0; i < c->cracks.count; i++) {
+        const double *from = cracks[i].from, *to = cracks[i].to;
+        int outside = larger((double[]){from[0], to[0]}) <= 0 || fmin(from[0], to[0]) >= c->width ||
+                      larger((double[]){from[1], to[1]}) <= 0 || fmin(from[1], to[1]) >= c->height;
+        if (!kr_deck_given(deck, from) || !kr_deck_given(deck, to))
+            continue;
+        if (from[0] == to[0] && from[1] == to[1])
+            kr_deck_fault(deck, to, "the crack ends where it begins, (%g, %g) m", to[0], to[1]);
+        else if (outside && c->width > 0 && c->height > 0)
+            kr_deck_fault(deck, from, "the crack lies outside the plate of %g m x %g m", c->width,
+                          c->height);
+    }
+}
+
+static void check_times(struct kr_deck *deck, const struct kr_case *c) {
+    const double *at = c->output_at.item;
+    if (!(c->end_time > 0))
+        return; /* a fault of the reader */
+    if (c->time_step > c->end_time)
+        kr_deck_fault(deck, &c->time_step, "%g s is more than end_time, %g s", c->time_step,
+                      c->end_time);
+    else if (c->time_step > 0 && c->end_time / c->time_step > 1e12)
+        kr_deck_fault(deck, &c->time_step, "%g s makes %.2g steps until end_time; is a unit wrong?",
+                      c->time_step, c->end_time / c->time_step);
+    if (c->output_every > c->end_time)
+        kr_deck_fault(deck, &c->output_every, "%g s is more than end_time, %g s", c->output_every,
+                      c->end_time);
+    if (c->history_every > c->end_time)
+        kr_deck_fault(deck, &c->history_every, "%g s is more than end_time, %g s", c->history_every,
+                      c->end_time);
+    if (c->output_every > 0 && c->end_time / c->output_every > 1e6)
+        kr_deck_fault(deck, &c->output_every, "%g s makes %.2g outputs; at most a million are made",
+                      c->output_every, c->end_time / c->output_every);
+    for (size_t i = 0; i < c->output_at.count; i++)
+        if (at[i] > c->end_time * (1 + rounding))
+            kr_deck_fault(deck, &at[i], "%g s is after end_time, %g s", at[i], c->end_time);
+}
+
+void kr_case_check(struct kr_deck *deck, const struct kr_case *c) {
+    const struct kr_case_box *boxes = c->boxes.item;
+    check_mesh(deck, c);
+    check_holes(deck, c);
+    check_pores(deck, c);
+    check_sets_and_loads(deck, c);
+    check_cracks(deck, c);
+    check_times(deck, c);
+    for (size_t i = 0; i < c->boxes.count; i++)
+        if (kr_deck_given(deck, boxes[i].lower) && kr_deck_given(deck, boxes[i].upper))
+            check_box(deck, boxes[i].lower, boxes[i].upper);
+    if (c->law && strcmp(c->law, "pmb"))
+        kr_deck_fault(deck, &c->law, "unknown law '%.40s'; there is pmb", c->law);
+}
+
+static int is_used(const struct kr_case *c, const char *set) {
+    const struct kr_case_load *loads = c->loads.item;
+    const char *const *names = c->no_fail.item;
+    for (size_t i = 0; i < c->loads.count; i++)
+        if (!strcmp(loads[i].set, set))
+            return 1;
+    for (size_t i = 0; i < c->no_fail.count; i++)
+        if (!strcmp(names[i], set))
+            return 1;
+    return 0;
+}
+
+void kr_case_warn(struct kr_deck *deck, const struct kr_case *c) {
+    const struct kr_case_set *sets = c->sets.item;
+    if (c->horizon < 3 * c->spacing * (1 - rounding))
+        kr_warn("%s: %.3g spacings; below 3 the directions of the lattice show in the cracks",
+                kr_deck_where(deck, &c->horizon), c->horizon / c->spacing);
+    for (size_t i = 0; i < c->sets.count; i++)
+        if (!is_used(c, sets[i].name))
+            kr_warn("%s: no load and no no_fail uses this set", kr_deck_where(deck, &sets[i].name));
+}

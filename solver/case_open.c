@@ -1,0 +1,242 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * From the command line to a case: arguments, deck, folder, holes.
+ */
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/unit.h"
+#include "case.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* ---- arguments ---- */
+
+/* Value of an option that takes one, `--name value` or `--name=value`; moves on by what it used.
+   NULL if argument i is another one. */
+static const char *option(int argc, char **argv, int *i, const char *name) {
+    size_t length = strlen(name);
+    if (strncmp(argv[*i], name, length) || (argv[*i][length] && argv[*i][length] != '='))
+        return NULL;
+    if (argv[*i][length])
+        return argv[*i] + length + 1;
+    if (*i + 1 >= argc)
+        kr_stop(KR_EXIT_INPUT, "%s needs a value behind it", name);
+    return argv[++*i];
+}
+
+static int ends_with(const char *text, const char *end) {
+    size_t n = strlen(text), m = strlen(end);
+    return n >= m && !strcmp(text + n - m, end);
+}
+
+/* The deck is the first argument named like one; else the first that is no option. It is taken out
+   of those left: whether another is wrong only the program can tell. */
+static void pick_deck(struct kr_case_arguments *out) {
+    size_t place = out->n_left;
+    for (size_t i = out->n_left; i-- > 0;)
+        if (ends_with(out->left[i], ".yaml") || ends_with(out->left[i], ".yml"))
+            place = i;
+    for (size_t i = 0; place == out->n_left && i < out->n_left; i++)
+        if (*out->left[i] != '-')
+            place = i;
+    if (place == out->n_left)
+        return;
+    out->deck = out->left[place];
+    memmove(out->left + place, out->left + place + 1,
+            (out->n_left - place - 1) * sizeof *out->left);
+    out->n_left--;
+}
+
+static void take_argument(int argc, char **argv, int *i, struct kr_case_arguments *out) {
+    const char *value;
+    if ((value = option(argc, argv, i, "--variant")))
+        out->variant = value;
+    else if ((value = option(argc, argv, i, "--output")))
+        out->folder = value;
+    else if ((value = option(argc, argv, i, "--set")))
+        out->set[out->n_set++] = value;
+    else if (!strcmp(argv[*i], "--check"))
+        out->check = 1;
+    else if (!strcmp(argv[*i], "--explain"))
+        out->explain = 1;
+    else
+        out->left[out->n_left++] = argv[*i];
+}
+
+void kr_case_arguments(int argc, char **argv, const char *usage, struct kr_case_arguments *out) {
+    const char *slash = strrchr(argv[0], '/'), *program = slash ? slash + 1 : argv[0];
+    kr_error_program(program);
+    memset(out, 0, sizeof *out);
+    for (int i = 1; i < argc; i++) {
+        int help = !strcmp(argv[i], "--help") || !strcmp(argv[i], "-h");
+        if (help)
+            fputs(usage, stdout);
+        else if (!strcmp(argv[i], "--version"))
+            printf("%s %s\n", program, KR_VERSION);
+        else
+            continue;
+        exit(KR_EXIT_OK);
+    }
+    out->set = KR_NEW(const char *, (size_t)argc);
+    out->left = KR_NEW(const char *, (size_t)argc);
+    for (int i = 1; i < argc; i++)
+        take_argument(argc, argv, &i, out);
+    pick_deck(out);
+    if (!out->deck) {
+        fprintf(stderr, "%s: the deck is missing\n%s", program, usage);
+        exit(KR_EXIT_INPUT);
+    }
+}
+
+/* ---- the case ---- */
+
+/* Last part of a path, owned by the caller. */
+static char *last_part(const char *path) {
+    size_t end = strlen(path), begin;
+    while (end > 1 && path[end - 1] == '/')
+        end--;
+    for (begin = end; begin > 0 && path[begin - 1] != '/';)
+        begin--;
+    return kr_text("%.*s", (int)(end - begin), path + begin);
+}
+
+/* "out/" and the name of the folder of the deck, or of the deck where that folder has no name of
+   its own ("." and ".."). */
+static char *default_folder(const struct kr_deck *deck) {
+    char *name = last_part(kr_deck_folder(deck));
+    if (!strcmp(name, ".") || !strcmp(name, "..") || !*name) {
+        kr_free(name);
+        name = last_part(kr_deck_path(deck));
+        char *dot = strrchr(name, '.');
+        if (dot && dot != name)
+            *dot = 0;
+    }
+    char *folder = kr_text("out/%s", name);
+    kr_free(name);
+    return folder;
+}
+
+static void make_folder(const char *path) {
+    char *part = kr_text_copy(path);
+    for (char *slash = part + 1;; slash++) {
+        slash += strcspn(slash, "/");
+        int last = !*slash;
+        *slash = 0;
+        if (mkdir(part, 0777) && errno != EEXIST)
+            kr_stop(KR_EXIT_STORAGE, "the folder %s cannot be made: %s", part, strerror(errno));
+        if (last)
+            break;
+        *slash = '/';
+    }
+    struct stat about;
+    if (stat(path, &about) || !S_ISDIR(about.st_mode))
+        kr_stop(KR_EXIT_STORAGE, "%s, where results are to go, is no folder", path);
+    kr_free(part);
+}
+
+struct kr_deck *kr_case_open(const struct kr_case_arguments *arguments, struct kr_case *out) {
+    memset(out, 0, sizeof *out);
+    struct kr_deck *deck =
+        kr_deck_open(arguments->deck, arguments->variant, arguments->n_set, arguments->set);
+    kr_deck_read(deck, kr_case_keys, out);
+    kr_case_check(deck, out);
+    kr_deck_finish(deck);
+    kr_case_warn(deck, out);
+    if (arguments->check) {
+        kr_say("%s: no faults", arguments->deck);
+        exit(KR_EXIT_OK);
+    }
+    if (arguments->folder)
+        out->folder = arguments->folder;
+    else if (!out->folder || !*out->folder)
+        out->folder = kr_deck_keep(deck, default_folder(deck));
+    if (!arguments->explain)
+        make_folder(out->folder);
+    return deck;
+}
+
+char *kr_case_file(const struct kr_case *c, const char *name) {
+    size_t length = strlen(c->folder);
+    int slashed = length && c->folder[length - 1] == '/';
+    return kr_text("%s%s%s", c->folder, slashed ? "" : "/", name);
+}
+
+/* ---- holes ---- */
+
+/* Read a line "x y radius"; 1 for a hole, 0 for a line without one, -1 if it is bad. */
+static int read_hole(const char *line, struct kr_case_hole *hole) {
+    double *into[] = {&hole->centre[0], &hole->centre[1], &hole->radius};
+    const char *blank = " \t\r\n";
+    line += strspn(line, blank);
+    if (!*line || *line == '#')
+        return 0;
+    for (int i = 0; i < 3; i++) {
+        const char *end = kr_unit_number(line, into[i]);
+        if (!end || (*end && !strchr(" \t\r\n#", *end)))
+            return -1;
+        line = end + strspn(end, blank);
+    }
+    return !*line || *line == '#' ? 1 : -1;
+}
+
+/* Stop unless a hole of pores.txt is a hole of this plate. */
+static void check_hole(const struct kr_case *c, const struct kr_case_hole *hole, const char *path,
+                       size_t line) {
+    double x = fmax(fmax(-hole->centre[0], hole->centre[0] - c->width), 0);
+    double y = fmax(fmax(-hole->centre[1], hole->centre[1] - c->height), 0);
+    if (!(hole->radius > 0) || 2 * hole->radius > fmax(c->width, c->height))
+        kr_stop(KR_EXIT_INPUT,
+                "%s:%zu: found a radius of %g m, expected one above 0 that fits the plate", path,
+                line, hole->radius);
+    if (hypot(x, y) >= hole->radius)
+        kr_stop(KR_EXIT_INPUT, "%s:%zu: the pore at (%g, %g) m lies outside the plate", path, line,
+                hole->centre[0], hole->centre[1]);
+}
+
+/* Append the pores of a file to the holes. */
+static struct kr_case_hole *read_pores(const struct kr_case *c, const char *path,
+                                       struct kr_case_hole *holes, size_t *count) {
+    FILE *file = fopen(path, "r");
+    char *line = NULL;
+    size_t room = *count, line_room = 0;
+    if (!file)
+        kr_stop(KR_EXIT_INPUT, "%s cannot be read: %s; kirsch-pores makes it", path,
+                strerror(errno));
+    for (size_t number = 1; getline(&line, &line_room, file) >= 0; number++) {
+        struct kr_case_hole hole;
+        int found = read_hole(line, &hole);
+        if (found < 0)
+            kr_stop(KR_EXIT_INPUT, "%s:%zu: found '%.*s', expected 'x y radius' in metres", path,
+                    number, (int)strcspn(line, "\r\n"), line);
+        if (!found)
+            continue;
+        check_hole(c, &hole, path, number);
+        KR_GROW(holes, *count, room);
+        holes[(*count)++] = hole;
+    }
+    if (ferror(file))
+        kr_stop(KR_EXIT_INPUT, "%s cannot be read to its end: %s", path, strerror(errno));
+    free(line);
+    fclose(file);
+    return holes;
+}
+
+struct kr_case_hole *kr_case_holes(const struct kr_case *c, size_t *count) {
+    struct kr_case_hole *holes = KR_NEW(struct kr_case_hole, c->holes.count);
+    *count = c->holes.count;
+    if (*count)
+        memcpy(holes, c->holes.item, *count * sizeof *holes);
+    if (!c->pores.count)
+        return holes;
+    char *path = kr_case_file(c, "pores.txt");
+    holes = read_pores(c, path, holes, count);
+    if (*count - c->holes.count != (size_t)c->pores.count)
+        kr_warn("%s has %zu pores, the deck asks for %lld", path, *count - c->holes.count,
+                (long long)c->pores.count);
+    kr_free(path);
+    return holes;
+}
