@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "boundary.h"
 #include "convert.h"
 #include "mesh.h"
 #include "nodes_dat.h"
@@ -42,6 +43,7 @@ static struct kr_nodes *read_nodes(const struct kr_case_arguments *arguments, st
         nodes = kr_convert(mesh);
     }
     kr_convert_sets(deck, c, mesh, nodes);
+    kr_boundary_check(deck, c, nodes);
     kr_deck_finish(deck);
     if (mesh)
         kr_mesh_free(mesh);
@@ -61,10 +63,9 @@ static void report_nodes(const struct kr_nodes *nodes) {
 }
 
 /* Note what the factors are for, and find them if they are wanted. */
-static void correct(struct kr_deck *deck, const struct kr_case *c, struct kr_nodes *nodes) {
+static void correct(const struct kr_case *c, struct kr_nodes *nodes) {
     struct kr_nodes_made_for *made = &nodes->made_for;
-    struct kr_material material = kr_material_of(deck, c);
-    kr_deck_finish(deck);
+    struct kr_material material = kr_material_of(c);
     made->horizon = c->horizon;
     kr_case_word(KR_MODEL_WORDS, c->model, made->model);
     kr_case_word(KR_PARTIAL_VOLUME_WORDS, c->partial_volume, made->partial_volume);
@@ -89,7 +90,7 @@ int main(int argc, char **argv) {
     struct kr_deck *deck = kr_case_open(&arguments, &c);
     struct kr_nodes *nodes = read_nodes(&arguments, deck, &c);
     report_nodes(nodes);
-    correct(deck, &c, nodes);
+    correct(&c, nodes);
 
     char *path = kr_case_file(&c, "plate.nodes.h5"), *dat = kr_case_file(&c, "nodes.dat");
     char *deck_text = kr_deck_resolved(deck, NULL);

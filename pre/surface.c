@@ -2,6 +2,10 @@
  *
  * Surface correction by the energy method. The energies come from the solver's own loop, so that the
  * factors fit just the weights and the geometry that the solver will use.
+ *
+ * The paper's iteration lambda_i <- lambda_i W0/W_i ends where W_i = W0 in all nodes. As W is linear
+ * in lambda, and V_i dW_i/dlambda_j symmetric, that is a linear system with a positive matrix:
+ * conjugate gradients reach the same factors in some 20 iterations instead of some 800.
  */
 #include "surface.h"
 
@@ -54,28 +58,83 @@ double kr_surface_reference(const struct kr_material *m, int partial_volume, int
     return sum / count;
 }
 
-/* Energies of all nodes, mean over the deformations, into `energy`. */
-static void measure(struct kr_body *body, int count, double strain[2][2], double *energy) {
-    for (size_t i = 0; i < body->n; i++)
-        energy[i] = 0;
-    for (int k = 0; k < count; k++) {
+/* The body whose energies are wanted, and the deformations. */
+struct problem {
+    struct kr_body *body;
+    int count;
+    double strain[2][2];
+    double *diagonal; /* of the system: about V_i W_i(1)/2 */
+};
+
+/* out_i = V_i W_i for the factors lambda, mean over the deformations. Linear in lambda. */
+static void apply(const struct problem *p, const double *lambda, double *out) {
+    struct kr_body *body = p->body;
+    for (size_t i = 0; i < body->n; i++) {
+        body->bonds->factor[i] = lambda[i];
+        out[i] = 0;
+    }
+    for (int k = 0; k < p->count; k++) {
         for (int d = 0; d < 2; d++)
             for (size_t i = 0; i < body->n; i++)
-                body->u[d][i] = strain[k][d] * body->bonds->x[d][i];
+                body->u[d][i] = p->strain[k][d] * body->bonds->x[d][i];
         kr_body_energy(body);
         for (size_t i = 0; i < body->n; i++)
-            energy[i] += body->energy[i] / count;
+            out[i] += body->energy[i] * body->bonds->volume[i] / p->count;
     }
 }
 
-static double update(struct kr_body *body, const double *energy, double reference) {
+struct dot {
+    const double *a, *b;
+};
+
+static double product(const void *context, size_t i) {
+    const struct dot *d = context;
+    return d->a[i] * d->b[i];
+}
+
+static double dot(size_t n, const double *a, const double *b) {
+    struct dot d = {a, b};
+    return kr_body_sum(n, product, &d);
+}
+
+/* Largest |W_i/W0 - 1|, from the residual r_i = V_i (W0 - W_i). */
+static double worst_of(const struct problem *p, const double *residual, double reference) {
     double worst = 0;
-    for (size_t i = 0; i < body->n; i++) {
-        double ratio = reference / energy[i];
-        body->bonds->factor[i] *= ratio;
-        worst = fmax(worst, fabs(ratio - 1));
-    }
+    for (size_t i = 0; i < p->body->n; i++)
+        worst = fmax(worst, fabs(residual[i] / (p->body->bonds->volume[i] * reference)));
     return worst;
+}
+
+/* Conjugate gradients with the diagonal as preconditioner. */
+static void solve(struct problem *p, double *lambda, struct kr_surface_report *report) {
+    size_t n = p->body->n;
+    double *residual = KR_NEW(double, n), *search = KR_NEW(double, n), *scaled = KR_NEW(double, n);
+    double *image = KR_NEW(double, n), before = 0;
+    apply(p, lambda, image);
+    for (size_t i = 0; i < n; i++) {
+        p->diagonal[i] = 0.5 * image[i];
+        residual[i] = p->body->bonds->volume[i] * report->reference - image[i];
+    }
+    while ((report->residual = worst_of(p, residual, report->reference)) > TOLERANCE &&
+           report->iterations < MOST_ITERATIONS) {
+        for (size_t i = 0; i < n; i++)
+            scaled[i] = residual[i] / p->diagonal[i];
+        double now = dot(n, residual, scaled);
+        for (size_t i = 0; i < n; i++)
+            search[i] = scaled[i] + (before > 0 ? now / before : 0) * search[i];
+        before = now;
+        apply(p, search, image);
+        double length = now / dot(n, search, image);
+        for (size_t i = 0; i < n; i++) {
+            lambda[i] += length * search[i];
+            residual[i] -= length * image[i];
+        }
+        report->iterations++;
+    }
+    kr_free(residual);
+    kr_free(search);
+    kr_free(scaled);
+    kr_free(image);
 }
 
 static void report_extremes(const struct kr_nodes *nodes, struct kr_surface_report *report) {
@@ -97,23 +156,25 @@ struct kr_surface_report kr_surface_correct(struct kr_nodes *nodes,
     struct kr_material whole = *material;
     whole.critical_stretch = INFINITY;
     struct kr_bonds *bonds = kr_bonds_create(nodes, &whole, partial_volume);
-    struct kr_body *body = kr_body_create(bonds);
-    double strain[2][2], *energy = KR_NEW(double, nodes->n);
-    int count = strains_of(deformation, strain);
-    do {
-        measure(body, count, strain, energy);
-        report.residual = update(body, energy, report.reference);
-    } while (report.residual > TOLERANCE && ++report.iterations < MOST_ITERATIONS);
-    if (report.residual > TOLERANCE)
+    struct problem problem = {.body = kr_body_create(bonds), .diagonal = KR_NEW(double, nodes->n)};
+    problem.count = strains_of(deformation, problem.strain);
+    for (size_t i = 0; i < nodes->n; i++)
+        nodes->factor[i] = 1;
+    solve(&problem, nodes->factor, &report);
+    if (!(report.residual <= TOLERANCE))
         kr_stop(KR_EXIT_NUMBERS,
                 "the surface factors did not converge: off by %.2g after %d iterations; look for "
                 "nodes with few neighbours, or take surface_correction: none",
                 report.residual, report.iterations);
-    for (size_t i = 0; i < nodes->n; i++)
-        nodes->factor[i] = bonds->factor[i];
     report_extremes(nodes, &report);
-    kr_body_free(body);
+    if (!(report.least > 0))
+        kr_stop(KR_EXIT_NUMBERS,
+                "the surface factor of the node at (%g, %g) m is %g; a bond must not push apart what "
+                "it holds: take surface_deformation: isotropic, or a finer spacing there",
+                nodes->position[2 * report.least_at], nodes->position[2 * report.least_at + 1],
+                report.least);
+    kr_body_free(problem.body);
     kr_bonds_free(bonds);
-    kr_free(energy);
+    kr_free(problem.diagonal);
     return report;
 }

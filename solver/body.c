@@ -59,9 +59,9 @@ static void force_of_block(struct kr_body *body, const struct kr_kernel_work *wo
     for (size_t slice = b->block[block]; slice < b->block[block + 1]; slice++) {
         if (!body->flag[slice])
             continue;
-        if (may_break)
-            kr_exact_break(b, work->u, slice, list);
         kr_exact_force(work, slice);
+        if (may_break)
+            kr_exact_break(b, work, slice, list);
     }
 }
 

@@ -27,8 +27,9 @@ void kr_body_free(struct kr_body *body);
 
 /** Internal force density of every node at the displacements u; theory.md (7), plates paper eq. 11.
  *
- *  may_break: first break the bonds past the critical stretch; they are then listed in
- *  body->broken, both ends are cleared and the damage is up to date.
+ *  may_break: then break the bonds past the critical stretch (they pull with half their force in
+ *  this step, see exact.h); they are listed in body->broken, both ends are cleared and the damage
+ *  is up to date.
  *
  *  Threads: one slice is summed by one thread, in a fixed order: same bits for any number.
  */

@@ -12,6 +12,8 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 enum kind { BODY_FORCE, VELOCITY, DISPLACEMENT };
 
@@ -61,25 +63,45 @@ static double volume_of(const struct kr_nodes *nodes, const struct kr_set *set) 
     return volume;
 }
 
-static void make_load(struct kr_deck *deck, const struct kr_case_load *from,
-                      const struct kr_nodes *nodes, struct load *load) {
-    load->set = kr_nodes_set(nodes, from->set);
-    if (!load->set || !load->set->count) {
-        kr_deck_fault(deck, &from->set, "the node file has no set '%s'%s", from->set,
-                      load->set ? " with any node in it" : "");
-        load->set = NULL;
-        return;
+/* The set named at `place`; a fault of the deck if there is none or nothing in it. */
+static const struct kr_set *set_named(struct kr_deck *deck, const char *const *place,
+                                      const struct kr_nodes *nodes) {
+    char known[512] = "";
+    const struct kr_set *set = kr_nodes_set(nodes, *place);
+    if (set && set->count)
+        return set;
+    for (size_t s = 0; s < nodes->n_sets; s++) {
+        size_t used = strlen(known);
+        snprintf(known + used, sizeof known - used, "%s%s", s ? ", " : "", nodes->set[s].name);
     }
-    const struct kr_deck_formula *formula = formulas_of(from, &load->kind);
-    double share = 1;
-    if (formula == from->traction) {
-        if (load->set->measure <= 0)
-            kr_deck_fault(deck, &from->set,
+    if (set)
+        kr_deck_fault(deck, place, "set '%s' has no node in it", *place);
+    else
+        kr_deck_fault(deck, place, "no set is called '%s'; there are %s", *place, known);
+    return NULL;
+}
+
+void kr_boundary_check(struct kr_deck *deck, const struct kr_case *c,
+                       const struct kr_nodes *nodes) {
+    const struct kr_case_load *load = c->loads.item;
+    const char *const *name = c->no_fail.item;
+    for (size_t k = 0; k < c->loads.count; k++) {
+        const struct kr_set *set = set_named(deck, &load[k].set, nodes);
+        if (set && set->measure <= 0 && is_given(load[k].traction))
+            kr_deck_fault(deck, &load[k].set,
                           "set '%s' belongs to no boundary, so a traction has no length to act on; "
                           "use a boundary, a set 'within' a distance of one, or body_force",
-                          from->set);
-        share = load->set->measure / volume_of(nodes, load->set);
+                          load[k].set);
     }
+    for (size_t k = 0; k < c->no_fail.count; k++)
+        set_named(deck, &name[k], nodes);
+}
+
+static void make_load(const struct kr_case_load *from, const struct kr_nodes *nodes,
+                      struct load *load) {
+    load->set = kr_nodes_set(nodes, from->set);
+    const struct kr_deck_formula *formula = formulas_of(from, &load->kind);
+    double share = formula == from->traction ? load->set->measure / volume_of(nodes, load->set) : 1;
     load->ramp = from->ramp;
     for (int d = 0; d < 2; d++) {
         char *why = NULL;
@@ -99,7 +121,7 @@ static void check_conflicts(struct kr_deck *deck, const struct kr_case *c,
     for (size_t k = 0; k < b->count; k++) {
         const struct load *load = &b->load[k];
         int fault = 0;
-        if (!load->set || load->kind == BODY_FORCE)
+        if (load->kind == BODY_FORCE)
             continue;
         for (size_t m = 0; m < load->set->count && !fault; m++)
             for (int d = 0; d < 2 && !fault; d++) {
@@ -125,7 +147,7 @@ struct kr_boundary *kr_boundary_create(struct kr_deck *deck, const struct kr_cas
     b->load = KR_NEW(struct load, b->count);
     const struct kr_case_load *from = c->loads.item;
     for (size_t k = 0; k < b->count; k++)
-        make_load(deck, &from[k], nodes, &b->load[k]);
+        make_load(&from[k], nodes, &b->load[k]);
     check_conflicts(deck, c, b);
     return b;
 }

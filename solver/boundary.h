@@ -12,8 +12,12 @@
 
 struct kr_boundary; /* Opaque. Implemented in boundary.c. */
 
-/** The loads of a case. Faults of the deck: unknown set, empty set, traction on a set that belongs
- *  to no boundary, two loads that prescribe the same component of a node. */
+/** Check that the sets that loads and no_fail name are there and not empty, and that tractions act on
+ *  sets that belong to a boundary; what is wrong is a fault of the deck. */
+void kr_boundary_check(struct kr_deck *deck, const struct kr_case *c, const struct kr_nodes *nodes);
+
+/** The loads of a case that has passed kr_boundary_check. A fault of the deck: two loads that
+ *  prescribe the same component of a node. */
 struct kr_boundary *kr_boundary_create(struct kr_deck *deck, const struct kr_case *c,
                                        const struct kr_nodes *nodes);
 void kr_boundary_free(struct kr_boundary *boundary);

@@ -31,21 +31,30 @@ double kr_exact_pair_energy(const struct kr_bonds *b, const struct kr_bond *bond
            bond->length * m->law->energy(stretch);
 }
 
-void kr_exact_force(const struct kr_kernel_work *work, size_t slice) {
+/* Force density of a bond on its node i. */
+static void pair_force(const struct kr_kernel_work *work, const struct kr_bond *bond, double s,
+                       double force[3]) {
     const struct kr_bonds *b = work->bonds;
     const struct kr_material *m = &b->material;
+    double pull = m->micromodulus * m->law->force(s) * weight_of(b, bond) * b->volume[bond->j];
+    for (int d = 0; d < b->dim; d++) {
+        double eta = work->u[d][bond->j] - work->u[d][bond->i];
+        force[d] = pull * (bond->xi[d] + eta) / (bond->length * (1 + s));
+    }
+}
+
+void kr_exact_force(const struct kr_kernel_work *work, size_t slice) {
+    const struct kr_bonds *b = work->bonds;
     struct kr_bond_walk walk = kr_bonds_walk(b, slice);
     struct kr_bond bond;
+    double force[3];
     for (int d = 0; d < b->dim; d++)
         for (size_t i = slice * KR_LANES; i < slice * KR_LANES + KR_LANES; i++)
             work->force[d][i] = 0;
     while (kr_bonds_next(b, &walk, &bond)) {
-        double s = kr_exact_stretch(b, &bond, work->u);
-        double pull = m->micromodulus * m->law->force(s) * weight_of(b, &bond) * b->volume[bond.j];
-        double stretched = bond.length * (1 + s);
+        pair_force(work, &bond, kr_exact_stretch(b, &bond, work->u), force);
         for (int d = 0; d < b->dim; d++)
-            work->force[d][bond.i] +=
-                pull * (bond.xi[d] + (work->u[d][bond.j] - work->u[d][bond.i])) / stretched;
+            work->force[d][bond.i] += force[d];
     }
 }
 
@@ -61,15 +70,19 @@ void kr_exact_energy(const struct kr_kernel_work *work, size_t slice) {
     }
 }
 
-void kr_exact_break(struct kr_bonds *b, const double *const u[3], size_t slice,
+void kr_exact_break(struct kr_bonds *b, const struct kr_kernel_work *work, size_t slice,
                     struct kr_broken_list *list) {
     struct kr_bond_walk walk = kr_bonds_walk(b, slice);
     struct kr_bond bond;
+    double force[3];
     while (kr_bonds_next(b, &walk, &bond)) {
-        double s = kr_exact_stretch(b, &bond, u);
+        double s = kr_exact_stretch(b, &bond, work->u);
         if (!(s > b->material.critical_stretch) || b->no_fail[bond.i] || b->no_fail[bond.j])
             continue;
         b->living[bond.row] &= (uint8_t)~(1u << bond.lane);
+        pair_force(work, &bond, s, force);
+        for (int d = 0; d < b->dim; d++)
+            work->force[d][bond.i] -= 0.5 * force[d];
         KR_GROW(list->item, list->count, list->room);
         list->item[list->count++] = (struct kr_broken){
             (int)bond.i, (int)bond.j, bond.weight, kr_exact_pair_energy(b, &bond, s)};

@@ -36,8 +36,14 @@ void kr_exact_force(const struct kr_kernel_work *work, size_t slice);
 void kr_exact_energy(const struct kr_kernel_work *work, size_t slice);
 
 /** Break the bonds of one slice that are past the critical stretch, but for those of no-fail nodes:
- *  clears this end's bit and adds (i, j) to the list. The other end is its own slice's business. */
-void kr_exact_break(struct kr_bonds *bonds, const double *const u[3], size_t slice,
+ *  clears this end's bit and adds (i, j) to the list. The other end is its own slice's business.
+ *
+ *  To be called after kr_exact_force: half the pull of a breaking bond is taken off again. The kick
+ *  of this step ends one half step, in which the bond still held, and begins the next, in which it is
+ *  gone. With this the energy that a bond takes along is just what it held when it broke, and the
+ *  ledger closes to second order in the time step; theory.md (13).
+ */
+void kr_exact_break(struct kr_bonds *bonds, const struct kr_kernel_work *work, size_t slice,
                     struct kr_broken_list *list);
 
 #endif

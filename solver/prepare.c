@@ -40,14 +40,12 @@ static void check_made_for(struct kr_deck *deck, const struct kr_case *c,
     check_word(deck, &c->surface_deformation, KR_DEFORMATION_WORDS, made->deformation);
 }
 
-static void mark_no_fail(struct kr_deck *deck, const struct kr_case *c, const struct kr_nodes *nodes,
+static void mark_no_fail(const struct kr_case *c, const struct kr_nodes *nodes,
                          struct kr_bonds *bonds) {
-    const char **name = c->no_fail.item;
+    const char *const *name = c->no_fail.item;
     for (size_t k = 0; k < c->no_fail.count; k++) {
         const struct kr_set *set = kr_nodes_set(nodes, name[k]);
-        if (!set)
-            kr_deck_fault(deck, &name[k], "the node file has no set '%s'", name[k]);
-        for (size_t m = 0; set && m < set->count; m++)
+        for (size_t m = 0; m < set->count; m++)
             bonds->no_fail[set->node[m]] = 1;
     }
 }
@@ -73,8 +71,9 @@ struct kr_run *kr_run_create(struct kr_deck *deck, const struct kr_case *c) {
     struct kr_run *run = KR_NEW(struct kr_run, 1);
     char *path = kr_case_file(c, "plate.nodes.h5");
     *run = (struct kr_run){.c = c, .nodes = kr_nodes_read(path)};
-    struct kr_material material = kr_material_of(deck, c);
+    struct kr_material material = kr_material_of(c);
     check_made_for(deck, c, run->nodes);
+    kr_boundary_check(deck, c, run->nodes);
     kr_deck_finish(deck);
 
     double begun = kr_progress_clock();
@@ -82,7 +81,7 @@ struct kr_run *kr_run_create(struct kr_deck *deck, const struct kr_case *c) {
     const struct kr_case_crack *crack = c->cracks.item;
     for (size_t k = 0; k < c->cracks.count; k++)
         run->precrack += kr_bonds_cut(run->bonds, crack[k].from, crack[k].to, c->count_precrack);
-    mark_no_fail(deck, c, run->nodes, run->bonds);
+    mark_no_fail(c, run->nodes, run->bonds);
     run->body = kr_body_create(run->bonds);
     run->boundary = kr_boundary_create(deck, c, run->nodes);
     kr_deck_finish(deck);

@@ -6,7 +6,7 @@
  *    u(n+1)   = u(n) + dt v(n+1/2)              drift
  *
  * which gives the same displacements as the usual form with one pass less over the nodes. The order
- * within a step: break bonds at u(n), forces of what is left, loads, records, kick and drift.
+ * within a step: forces at u(n), break bonds, loads, records, kick and drift.
  */
 #include "run.h"
 

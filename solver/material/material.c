@@ -8,7 +8,6 @@
 #include "material/material.h"
 
 #include "base/error.h"
-#include "base/memory.h"
 #include "material/pmb.h"
 
 #include <math.h>
@@ -67,20 +66,9 @@ struct kr_material kr_material_make(const struct kr_law *law, int model, double 
     return m;
 }
 
-struct kr_material kr_material_of(struct kr_deck *deck, const struct kr_case *c) {
+struct kr_material kr_material_of(const struct kr_case *c) {
     const struct kr_law *law = kr_law_named(c->law);
-    if (!law) {
-        char *known = kr_text_copy("");
-        for (size_t k = 0; k < kr_laws_count; k++) {
-            char *longer = kr_text("%s%s%s", known, k ? ", " : "", kr_laws[k]->name);
-            kr_free(known);
-            known = longer;
-        }
-        kr_deck_fault(deck, &c->law, "found '%s', expected one of the known laws: %s", c->law,
-                      known);
-        kr_free(known);
-        law = kr_laws[0];
-    }
+    kr_assert(law); /* kr_case_check has seen to it */
     return kr_material_make(law, c->model, c->youngs_modulus, c->density, c->fracture_energy,
                             c->horizon);
 }

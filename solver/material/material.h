@@ -51,7 +51,7 @@ struct kr_material {
 struct kr_material kr_material_make(const struct kr_law *law, int model, double youngs_modulus,
                                     double density, double fracture_energy, double horizon);
 
-/** The material of a case; an unknown law is a fault of the deck. */
-struct kr_material kr_material_of(struct kr_deck *deck, const struct kr_case *c);
+/** The material of a case. */
+struct kr_material kr_material_of(const struct kr_case *c);
 
 #endif
