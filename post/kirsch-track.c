@@ -40,7 +40,7 @@ static void follow_all(const struct kr_case *c, const struct kr_record *record,
     struct kr_track *track = KR_NEW(struct kr_track, count);
     for (size_t k = 0; k < count; k++)
         kr_track_follow(record, c->boxes.count ? box + k : &whole, c->window, track + k);
-    *report = (struct kr_report){record, count, track, kr_branches_count(record)};
+    *report = (struct kr_report){record, c->window, count, track, kr_branches_count(record)};
 }
 
 static void free_tracks(struct kr_report *report) {

@@ -120,6 +120,12 @@ void kr_report_summary(const struct kr_report *report, const char *path) {
 
 /* ---- terminal ---------------------------------------------------------------------------- */
 
+/** A tip that stands on nodes moves by whole spacings: what one of them makes in a window. */
+static double resolution(const struct kr_report *report) {
+    const struct kr_record *record = report->record;
+    return record->spacing / ((double)report->window * record->time_step);
+}
+
 static void say_track(const struct kr_report *report, size_t box) {
     const struct kr_record *record = report->record;
     const struct kr_track *track = report->track + box;
@@ -139,8 +145,8 @@ static void say_track(const struct kr_report *report, size_t box) {
         kr_say("  mean speed     %.0f m/s, %.2f of Rayleigh's %.0f m/s", track->mean_speed,
                track->mean_speed / rayleigh, rayleigh);
     if (!isnan(track->mean_speed) && !isnan(track->top_speed))
-        kr_say("  top speed      %.0f m/s, %.2f of it", track->top_speed,
-               track->top_speed / rayleigh);
+        kr_say("  top speed      %.0f m/s, %.2f of it; resolved to %.0f m/s", track->top_speed,
+               track->top_speed / rayleigh, resolution(report));
 }
 
 void kr_report_say(const struct kr_report *report) {

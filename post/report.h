@@ -10,6 +10,7 @@
 
 struct kr_report {
     const struct kr_record *record;
+    int64_t window; /* steps */
     size_t n_tracks;
     struct kr_track *track; /* (n_tracks) one a box */
     struct kr_branches branches;
