@@ -4,7 +4,9 @@ import numpy as np
 
 from maps import outline_holes, paint, panels, save, show
 from results import Fault, read_csv
-from style import COLOURS, DAMAGE, DPI, WIDTH, box_label, open_axes, plt
+from style import COLOURS, DAMAGE, box_label, open_axes, plt
+
+SMOOTH = 15  # moves of the tip
 
 
 def tips_by_box(case):
@@ -29,6 +31,21 @@ def holes_on_path(case, tips):
     return [hole for hole in case.holes if near(hole)]
 
 
+def smooth(values):
+    """Moving mean over the values there are; the tip moves by whole cells, so they scatter."""
+    known = np.isfinite(values)
+    window = np.ones(SMOOTH)
+    total = np.convolve(np.where(known, values, 0), window, "same")
+    count = np.convolve(known.astype(float), window, "same")
+    return np.where(known, total / np.maximum(count, 1), np.nan)
+
+
+def broken(x, values, tip, jump):
+    """The curve with a gap where the tip moved by more than `jump` at once."""
+    after = np.flatnonzero(np.hypot(np.diff(tip["x"]), np.diff(tip["y"])) > jump) + 1
+    return np.insert(x, after, np.nan), np.insert(values, after, np.nan)
+
+
 def speed(case):
     """Speed of the tip above its place, as in figure 15 of the plates paper."""
     tips = tips_by_box(case)
@@ -41,13 +58,16 @@ def speed(case):
     for x, _, _ in holes_on_path(case, tips):
         axes.axvline(x, linestyle=(0, (4, 3)), linewidth=0.7, color="0.45")
     over = axes.twinx()
-    highest = 0
+    jump = 1e3 * case.run().attrs["horizon"]
     for box, t in tips:
-        over.plot(t["x"], t["speed"], color=COLOURS[(box - 1) % len(COLOURS)],
+        colour = COLOURS[(box - 1) % len(COLOURS)]
+        over.plot(*broken(t["x"], t["speed"], t, jump), color=colour, linewidth=0.4, alpha=0.45)
+        over.plot(*broken(t["x"], smooth(t["speed"]), t, jump), color=colour, linewidth=1.4,
                   label=box_label(box, tips))
-        highest = np.nanmax(np.append(t["speed"], highest))
+    highest = max(np.nanmax(np.append(t["speed"], 0)) for _, t in tips)
     over.set_ylim(0, max(1, 1.08 * highest))
     over.set_ylabel("crack speed / Rayleigh speed")
+    over.set_title("bold: mean over %d moves of the tip" % SMOOTH, loc="right", pad=3)
     if len(tips) > 1:
         over.legend(loc="upper left")
     return save(case, figure, "speed")

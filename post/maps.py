@@ -30,11 +30,11 @@ def show(axes, case, pixels, colours, limit):
     """Put a map of the whole plate into axes in mm."""
     lower, upper = case.box()
     return axes.imshow(pixels, origin="lower", extent=(lower[0], upper[0], lower[1], upper[1]),
-                       cmap=colours, vmin=0, vmax=limit, interpolation="antialiased",
-                       aspect="equal")
+                       cmap=colours, vmin=0, vmax=limit, interpolation="nearest",
+                       aspect="auto")
 
 
-def outline_holes(axes, case, width=0.5, colour="0.35"):
+def outline_holes(axes, case, width=0.6, colour="0.35"):
     for x, y, radius in case.holes:
         axes.add_patch(Circle((x, y), radius, fill=False, linewidth=width, edgecolor=colour))
 
@@ -55,29 +55,34 @@ def chosen_steps(case, count=4):
 
 
 def panels(case, count):
-    """Figure with `count` equal maps in two columns and a narrow axes for the colour bar."""
-    lower, upper = case.box()
+    """Figure with `count` equal maps in two columns and a narrow axes for the colour bar.
+
+    All edges lie on whole pixels, so that a pixel of a map is a pixel of the picture.
+    """
     columns = 1 if count == 1 else 2
     rows = -(-count // columns)
-    left, right, gap, top, bottom, between = 0.5, 0.75, 0.15, 0.22, 0.42, 0.27
-    wide = (WIDTH - left - right - gap * (columns - 1)) / columns
-    high = wide * (upper[1] - lower[1]) / (upper[0] - lower[0])
-    total = top + bottom + rows * high + (rows - 1) * between
-    figure = plt.figure(figsize=(WIDTH, total))
+    left, right, gap, top, bottom, between, all_wide = (
+        round(DPI * inches) for inches in (0.5, 0.75, 0.3, 0.22, 0.42, 0.27, WIDTH))
+    wide = (all_wide - left - right - gap * (columns - 1)) // columns
+    high = len(picture_of(case, wide))
+    total = np.array([all_wide, top + bottom + rows * high + (rows - 1) * between])
+    figure = plt.figure(figsize=total / DPI, dpi=DPI)
+
+    def add(x, y, w, h):
+        return figure.add_axes([x / total[0], y / total[1], w / total[0], h / total[1]])
+
     axes = []
     for k in range(count):
         column, row = k % columns, k // columns
-        y = total - top - (row + 1) * high - row * between
-        axes.append(figure.add_axes([(left + column * (wide + gap)) / WIDTH, y / total,
-                                     wide / WIDTH, high / total]))
+        axes.append(add(left + column * (wide + gap),
+                        total[1] - top - (row + 1) * high - row * between, wide, high))
         axes[-1].tick_params(labelleft=column == 0, labelbottom=k + columns >= count)
         if column == 0:
             axes[-1].set_ylabel("y (mm)")
         if k + columns >= count:
             axes[-1].set_xlabel("x (mm)")
-    bar = figure.add_axes([(WIDTH - right + 0.12) / WIDTH, bottom / total, 0.11 / WIDTH,
-                           (total - top - bottom) / total])
-    return figure, axes, bar, round(wide * DPI)
+    bar = add(all_wide - right + 0.12 * DPI, bottom, 0.11 * DPI, total[1] - top - bottom)
+    return figure, axes, bar, wide
 
 
 def four_maps(case, field, colours, label, limit_of, scale=1):

@@ -10,7 +10,7 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 from matplotlib import font_manager
 
-from maps import chosen_steps, energy_limit, outline_holes, picture_of
+from maps import chosen_steps, energy_limit, picture_of
 from results import warn
 from style import DAMAGE, ENERGY, plt
 
@@ -22,26 +22,24 @@ def background(case, limit):
     """Pixels of the empty frame (rows, columns, 3), and where the maps go: (x, y, wide, high) in
     pixels from the upper left."""
     lower, upper = case.box()
-    left, right, top, bottom, between, wide = 0.55, 0.85, 0.3, 0.45, 0.12, 6.0
-    high = wide * (upper[1] - lower[1]) / (upper[0] - lower[0])
-    size = np.array([left + wide + right, top + 2 * high + between + bottom])
-    size = 2 * np.round(size * DPI / 2) / DPI  # encoders want even numbers of pixels
-    figure = plt.figure(figsize=size, dpi=DPI)
+    left, right, top, bottom, between, wide = (
+        round(DPI * inches) for inches in (0.55, 0.85, 0.3, 0.45, 0.12, 6))
+    high = len(picture_of(case, wide))
+    total = np.array([left + wide + right, top + 2 * high + between + bottom])
+    total += total % 2  # encoders want even numbers of pixels
+    figure = plt.figure(figsize=total / DPI, dpi=DPI)
     places = []
     for row, (colours, most, label) in enumerate((
             (DAMAGE, 1, "damage"), (ENERGY, limit, "strain energy density (kJ/m³)"))):
-        x, y = round(left * DPI), round((top + row * (high + between)) * DPI)
-        w, h = round(wide * DPI), round(high * DPI)
-        pixels = size * DPI
-        axes = figure.add_axes([x / pixels[0], 1 - (y + h) / pixels[1], w / pixels[0],
-                                h / pixels[1]])
+        y = top + row * (high + between)
+        axes, bar = (figure.add_axes([x / total[0], 1 - (y + high) / total[1], w / total[0],
+                                      high / total[1]])
+                     for x, w in ((left, wide), (left + wide + 0.1 * DPI, 0.1 * DPI)))
         axes.set(xlim=(lower[0], upper[0]), ylim=(lower[1], upper[1]), ylabel="y (mm)")
         axes.tick_params(labelbottom=row == 1)
-        bar = figure.add_axes([(x + w + 0.1 * DPI) / pixels[0], 1 - (y + h) / pixels[1],
-                               0.1 * DPI / pixels[0], h / pixels[1]])
         figure.colorbar(plt.cm.ScalarMappable(plt.Normalize(0, most), colours), cax=bar,
                         label=label)
-        places.append((x, y, w, h))
+        places.append((left, y, wide, high))
     axes.set_xlabel("x (mm)")
     figure.canvas.draw()
     frame = np.asarray(figure.canvas.buffer_rgba())[..., :3].copy()
@@ -55,7 +53,27 @@ def colour(values, cell, colours, limit):
     level = np.clip(values * (256 / limit), 0, 255).astype(np.uint8)
     pixels = table[level[cell]]
     pixels[cell < 0] = 255
+    pixels[rims(cell)] = 90
     return pixels[::-1]
+
+
+def rims(cell):
+    """Pixels of holes that touch material."""
+    hole = cell < 0
+    touch = np.zeros_like(hole)
+    touch[1:] |= ~hole[:-1]
+    touch[:-1] |= ~hole[1:]
+    touch[:, 1:] |= ~hole[:, :-1]
+    touch[:, :-1] |= ~hole[:, 1:]
+    return hole & touch
+
+
+def paste(frame, pixels, place):
+    """Put a map into the frame, with a line around it."""
+    x, y, wide, high = place
+    frame[y:y + high, x:x + wide] = pixels
+    frame[[y, y + high - 1], x:x + wide] = 0
+    frame[y:y + high, [x, x + wide - 1]] = 0
 
 
 def frames(case, limit):
@@ -65,12 +83,9 @@ def frames(case, limit):
     font = ImageFont.truetype(font_manager.findfont("DejaVu Sans"), round(0.12 * DPI))
     yield frame.shape[1], frame.shape[0]
     for step, time in zip(*case.steps()):
-        for (x, y, w, h), pixels in zip(places, (
-                colour(case.field(step, "Damage"), cell, DAMAGE, 1),
-                colour(1e-3 * case.field(step, "Stored_Elastic_Energy_Density"), cell, ENERGY,
-                       limit))):
-            rows = min(h, len(pixels))
-            frame[y + 1:y + rows - 1, x + 1:x + w - 1] = pixels[1:rows - 1, 1:w - 1]
+        paste(frame, colour(case.field(step, "Damage"), cell, DAMAGE, 1), places[0])
+        energy = 1e-3 * case.field(step, "Stored_Elastic_Energy_Density")
+        paste(frame, colour(energy, cell, ENERGY, limit), places[1])
         image = Image.fromarray(frame)
         ImageDraw.Draw(image).text((places[0][0], 0.09 * DPI), "t = %.1f µs" % time, (0, 0, 0),
                                    font)

@@ -12,14 +12,13 @@ WIDTH = 7.0  # inches: a page's text
 # Okabe and Ito's colours: told apart with any kind of colour vision.
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"]
 
-# White to nearly black; lightness falls all the way, so that it also prints in grey.
-DAMAGE = LinearSegmentedColormap.from_list(
-    "damage", ["#ffffff", "#fddbb0", "#f08a4b", "#c03a2b", "#6b0f1a", "#1d0408"])
-ENERGY = matplotlib.colormaps["viridis"]
-
-for _map in (DAMAGE,):
-    _map.set_bad("white")
-ENERGY = ENERGY.copy()
+# White to nearly black; lightness falls all the way, so that it also prints in grey. It falls
+# fastest up to 0.5, the damage on the faces of a crack.
+DAMAGE = LinearSegmentedColormap.from_list("damage", [
+    (0, "#ffffff"), (0.12, "#fddbb0"), (0.28, "#f08a4b"), (0.42, "#c03a2b"), (0.6, "#6b0f1a"),
+    (1, "#1d0408")])
+ENERGY = matplotlib.colormaps["viridis"].copy()
+DAMAGE.set_bad("white")
 ENERGY.set_bad("white")
 
 plt.rcParams.update({
