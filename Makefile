@@ -42,6 +42,7 @@ programs   := $(patsubst %.c,$(BUILD)/%,$(notdir $(programs_c)))
 library_o  := $(patsubst %.c,$(BUILD)/%.o,$(library_c))
 tests_c    := $(wildcard tests/unit/*.c tests/property/*.c tests/convergence/*.c tests/input/*.c)
 tests      := $(patsubst tests/%.c,$(BUILD)/tests/%,$(tests_c))
+scripts    := $(patsubst post/%.py,$(BUILD)/%.py,$(wildcard post/*.py))
 
 # The bond loop is built once for each kind of processor and chosen at run time.
 kernels    := $(if $(wildcard solver/kernel.c),baseline $(if $(filter x86_64,$(shell uname -m)),avx2 avx512))
@@ -51,7 +52,7 @@ KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 
 .PHONY: all help demo test bench deps docs format install clean check-deps
-all: check-deps $(programs)
+all: check-deps $(programs) $(scripts)
 
 help:
 	@sed -n '2,/^$$/s/^# \{0,1\}//p' Makefile | sed '/^Settings/,$$d'
@@ -70,7 +71,11 @@ $(BUILD)/libkirsch.a: $(library_o) $(kernel_o)
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
 	@echo "  cc    $<"
-	$(Q)$(CC) $(ALL_FLAGS) -DKR_VERSION='"$(VERSION)"' -c $< -o $@
+	$(Q)$(CC) $(ALL_FLAGS) -DKR_VERSION='"$(VERSION)"' -DKR_SHARE='"$(PREFIX)/share/kirsch"' -c $< -o $@
+
+$(BUILD)/%.py: post/%.py
+	@mkdir -p $(@D)
+	$(Q)cp $< $@
 
 $(BUILD)/solver/kernel_%.o: solver/kernel.c
 	@mkdir -p $(@D)
@@ -109,8 +114,9 @@ format:
 	@clang-format -i $$(git ls-files '*.c' '*.h')
 
 install: all
-	install -d $(PREFIX)/bin
+	install -d $(PREFIX)/bin $(PREFIX)/share/kirsch
 	install $(programs) $(PREFIX)/bin
+	install -m 644 $(scripts) $(PREFIX)/share/kirsch
 
 clean:
 	rm -rf $(BUILD)

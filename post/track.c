@@ -63,6 +63,15 @@ static size_t last_of_step(const struct event *event, size_t count, size_t from)
     return from;
 }
 
+/** Whether a move is no growth: farther than to the next cell (2 spacings, as cells vary) and than
+ *  a crack could have run since the move before. */
+static int is_hop(const struct kr_record *record, const struct kr_track *track, size_t node,
+                  int64_t step) {
+    const struct kr_tip *last = track->tip + track->count - 1;
+    double run = record->rayleigh_speed * (double)(step - last->step) * record->time_step;
+    return distance(record, last->node, node) > fmax(2 * record->spacing, run);
+}
+
 /** Go through the events and note each move of the tip. */
 static void move_tip(const struct kr_record *record, const struct event *event, size_t count,
                      struct kr_track *track) {
@@ -86,6 +95,7 @@ static void move_tip(const struct kr_record *record, const struct event *event, 
             jumped = 1;
         }
         if (tip.node != before || k == 0) {
+            jumped |= track->count && is_hop(record, track, tip.node, event[k].step);
             KR_GROW(track->tip, track->count, room);
             track->tip[track->count++] = (struct kr_tip){event[k].step, tip.node, jumped, NAN};
         }

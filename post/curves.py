@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Curves: crack speed over the final damage, tip position and energies in time."""
+import numpy as np
+
+from maps import outline_holes, paint, panels, save, show
+from results import Fault, read_csv
+from style import COLOURS, DAMAGE, box_label, open_axes, plt
+
+SMOOTH = 15  # moves of the tip
+
+
+def tips_by_box(case):
+    """List of (box, columns of tips.csv in mm and us)."""
+    tips = read_csv(case.path("tips.csv"))
+    if not len(tips["box"]):
+        raise Fault("there is no crack tip in %s" % case.path("tips.csv"))
+    result = []
+    for box in np.unique(tips["box"]):
+        rows = tips["box"] == box
+        result.append((int(box), {"x": 1e3 * tips["x"][rows], "y": 1e3 * tips["y"][rows],
+                                  "time": 1e6 * tips["time"][rows],
+                                  "speed": tips["speed_over_rayleigh"][rows]}))
+    return result
+
+
+def holes_on_path(case, tips):
+    """Holes within a radius of which a tip came."""
+    def near(hole):
+        return any((np.hypot(t["x"] - hole[0], t["y"] - hole[1]) < 2 * hole[2]).any()
+                   for _, t in tips)
+    return [hole for hole in case.holes if near(hole)]
+
+
+def smooth(values):
+    """Moving mean over the values there are; the tip moves by whole cells, so they scatter."""
+    known = np.isfinite(values)
+    window = np.ones(SMOOTH)
+    total = np.convolve(np.where(known, values, 0), window, "same")
+    count = np.convolve(known.astype(float), window, "same")
+    return np.where(known, total / np.maximum(count, 1), np.nan)
+
+
+def broken(x, values, tip, jump):
+    """The curve with a gap where the tip moved by more than `jump` at once."""
+    after = np.flatnonzero(np.hypot(np.diff(tip["x"]), np.diff(tip["y"])) > jump) + 1
+    return np.insert(x, after, np.nan), np.insert(values, after, np.nan)
+
+
+def speed(case):
+    """Speed of the tip above its place, as in figure 15 of the plates paper."""
+    tips = tips_by_box(case)
+    names, _ = case.steps()
+    figure, (axes,), bar, pixels = panels(case, 1)
+    image = show(axes, case, paint(case, case.field(names[-1], "Damage"), pixels), DAMAGE, 1)
+    image.set_alpha(0.45)
+    outline_holes(axes, case)
+    bar.remove()
+    for x, _, _ in holes_on_path(case, tips):
+        axes.axvline(x, linestyle=(0, (4, 3)), linewidth=0.7, color="0.45")
+    over = axes.twinx()
+    jump = 1e3 * case.run().attrs["horizon"]
+    for box, t in tips:
+        colour = COLOURS[(box - 1) % len(COLOURS)]
+        over.plot(*broken(t["x"], t["speed"], t, jump), color=colour, linewidth=0.4, alpha=0.45)
+        over.plot(*broken(t["x"], smooth(t["speed"]), t, jump), color=colour, linewidth=1.4,
+                  label=box_label(box, tips))
+    highest = max(np.nanmax(np.append(t["speed"], 0)) for _, t in tips)
+    over.set_ylim(0, max(1, 1.08 * highest))
+    over.set_ylabel("crack speed / Rayleigh speed")
+    over.set_title("bold: mean over %d moves of the tip" % SMOOTH, loc="right", pad=3)
+    if len(tips) > 1:
+        over.legend(loc="upper left")
+    return save(case, figure, "speed")
+
+
+def tip(case):
+    """Place of the tip in time; holes it meets are grey bands."""
+    tips = tips_by_box(case)
+    across = all(np.ptp(t["x"]) >= np.ptp(t["y"]) for _, t in tips)
+    key, axis = ("x", 0) if across else ("y", 1)
+    figure, axes = plt.subplots(figsize=(4.6, 3.2), constrained_layout=True)
+    for hole in holes_on_path(case, tips):
+        axes.axhspan(hole[axis] - hole[2], hole[axis] + hole[2], color="0.9", linewidth=0)
+    for box, t in tips:
+        axes.plot(t["time"], t[key], drawstyle="steps-post",
+                  color=COLOURS[(box - 1) % len(COLOURS)], label=box_label(box, tips))
+    axes.set(xlabel="time (µs)", ylabel="tip position %s (mm)" % key)
+    open_axes(axes)
+    if len(tips) > 1:
+        axes.legend(loc="upper left")
+    return save(case, figure, "tip")
+
+
+def history(case):
+    """Energies in time, and how well they balance."""
+    h = read_csv(case.path("history.csv"))
+    time = 1e6 * h["time"]
+    figure, (upper, lower) = plt.subplots(2, 1, figsize=(4.6, 4.0), sharex=True,
+                                          constrained_layout=True,
+                                          gridspec_kw={"height_ratios": [3, 1]})
+    for name, label, line in (("external_work", "external work", "-"), ("strain", "strain", "-"),
+                              ("kinetic", "kinetic", "-"), ("fracture", "fracture", "-")):
+        upper.plot(time, h[name], line, label=label)
+    upper.set_ylabel("energy (J per m of thickness)")
+    upper.legend(loc="upper left")
+    lower.plot(time, h["balance"], color=COLOURS[-1], linewidth=0.8)
+    lower.axhline(0, color="0.6", linewidth=0.5)
+    lower.set(xlabel="time (µs)", ylabel="balance (J/m)")
+    for axes in (upper, lower):
+        open_axes(axes)
+    return save(case, figure, "history")

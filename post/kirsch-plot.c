@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * kirsch-plot: pictures of a run. It finds the holes of the case and hands over to plot.py, which
+ * draws; the script lies beside this program or in the folder of the installation.
+ */
+#include <errno.h>
+#include <libgen.h>
+#include <limits.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "case.h"
+
+/* Not the first `python3` on PATH: that may be one which does not see Debian's packages. */
+#define PYTHON "/usr/bin/python3"
+
+static const char usage[] = "kirsch-plot case.yaml [PICTURE]...\n"
+                            "\n"
+                            "Draws into the folder `pictures` of the case's folder: grid, damage, "
+                            "energy, speed, tip, history\n"
+                            "(PNG) and crack (MP4, by ffmpeg). Without names, all of them.\n"
+                            "\n"
+                            "  --variant NAME     a variant of the deck\n"
+                            "  --set KEY=VALUE    a value over the deck's, any number of times\n"
+                            "  --output FOLDER    the case's folder\n"
+                            "  --check            check the deck, do nothing else\n"
+                            "  --explain          say what would be done\n";
+
+/** Path of plot.py, owned by the caller. */
+static char *find_script(void) {
+    char self[PATH_MAX];
+    ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
+    char *beside, *installed = kr_text("%s/plot.py", KR_SHARE);
+    self[length > 0 ? length : 0] = 0;
+    beside = kr_text("%s/plot.py", dirname(self));
+    if (access(beside, R_OK) == 0) {
+        kr_free(installed);
+        return beside;
+    }
+    if (access(installed, R_OK) != 0)
+        kr_stop(KR_EXIT_LIBRARY,
+                "plot.py is missing: it lies neither at %s nor at %s; run make "
+                "again",
+                beside, installed);
+    kr_free(beside);
+    return installed;
+}
+
+/** Replace this program: plot.py FOLDER PICTURE... --hole x,y,radius...   (in m) */
+static void hand_over(const struct kr_case *c, const struct kr_case_arguments *arguments) {
+    size_t n_holes, n = 0;
+    struct kr_case_hole *hole = kr_case_holes(c, &n_holes);
+    char **word = KR_NEW(char *, 6 + arguments->n_left + 2 * n_holes);
+    word[n++] = PYTHON;
+    word[n++] = "-B"; /* leaves no compiled files in the installation */
+    word[n++] = find_script();
+    word[n++] = (char *)c->folder;
+    for (size_t k = 0; k < arguments->n_left; k++)
+        word[n++] = (char *)arguments->left[k];
+    for (size_t k = 0; k < n_holes; k++) {
+        word[n++] = "--hole";
+        word[n++] =
+            kr_text("%.17g,%.17g,%.17g", hole[k].centre[0], hole[k].centre[1], hole[k].radius);
+    }
+    execv(PYTHON, word);
+    kr_stop(KR_EXIT_LIBRARY,
+            "cannot start " PYTHON ": %s; pictures need Debian's python3, "
+            "python3-numpy, python3-matplotlib and python3-h5py",
+            strerror(errno));
+}
+
+int main(int argc, char **argv) {
+    struct kr_case_arguments arguments;
+    struct kr_deck *deck;
+    struct kr_case c;
+    kr_case_arguments(argc, argv, usage, &arguments);
+    deck = kr_case_open(&arguments, &c);
+    if (!arguments.explain)
+        hand_over(&c, &arguments);
+    kr_say("would draw into %s", kr_case_file(&c, "pictures"));
+    kr_deck_close(deck);
+    return KR_EXIT_OK;
+}

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Maps: the grid near a hole, damage and strain energy density at several times."""
+import numpy as np
+from matplotlib.collections import PolyCollection
+from matplotlib.patches import Circle
+
+from raster import raster
+from style import DAMAGE, DPI, ENERGY, WIDTH, plt
+
+_rasters = {}
+
+
+def picture_of(case, columns):
+    """The cell at each pixel of the whole plate, `columns` wide; kept for the next picture."""
+    if columns not in _rasters:
+        lower, upper = case.box()
+        rows = max(2, round(columns * (upper[1] - lower[1]) / (upper[0] - lower[0])))
+        point, first, vertex = case.cells()[:3]
+        _rasters[columns] = raster(point, first, vertex, lower, upper, (rows, columns))
+    return _rasters[columns]
+
+
+def paint(case, values, columns):
+    """Pixels of a field, masked where there is no material."""
+    cell = picture_of(case, columns)
+    return np.ma.masked_array(values[cell], cell < 0)
+
+
+def show(axes, case, pixels, colours, limit):
+    """Put a map of the whole plate into axes in mm."""
+    lower, upper = case.box()
+    return axes.imshow(pixels, origin="lower", extent=(lower[0], upper[0], lower[1], upper[1]),
+                       cmap=colours, vmin=0, vmax=limit, interpolation="nearest",
+                       aspect="auto")
+
+
+def outline_holes(axes, case, width=0.6, colour="0.35"):
+    for x, y, radius in case.holes:
+        axes.add_patch(Circle((x, y), radius, fill=False, linewidth=width, edgecolor=colour))
+
+
+# ---- four times --------------------------------------------------------------------------------
+
+def chosen_steps(case, count=4):
+    """Outputs evenly between the first growth and the tip's arrival, which is the last of them."""
+    names, times = case.steps()
+    begin = 1e6 * case.summary.get("first_growth", times[-1] * 1e-6)
+    ends = [v for k, v in case.summary.items() if k.startswith("arrival")]
+    end = max([1e6 * e for e in ends] + [begin])
+    if end <= begin:
+        begin, end = times[0], times[-1]
+    wanted = begin + (end - begin) * (np.arange(count) + 1) / count
+    after = np.minimum(np.searchsorted(times, wanted - 1e-9), len(times) - 1)
+    return [(names[k], times[k]) for k in sorted(set(after))]
+
+
+def panels(case, count):
+    """Figure with `count` equal maps in two columns and a narrow axes for the colour bar.
+
+    All edges lie on whole pixels, so that a pixel of a map is a pixel of the picture.
+    """
+    columns = 1 if count == 1 else 2
+    rows = -(-count // columns)
+    left, right, gap, top, bottom, between, all_wide = (
+        round(DPI * inches) for inches in (0.5, 0.75, 0.3, 0.22, 0.42, 0.27, WIDTH))
+    wide = (all_wide - left - right - gap * (columns - 1)) // columns
+    high = len(picture_of(case, wide))
+    total = np.array([all_wide, top + bottom + rows * high + (rows - 1) * between])
+    figure = plt.figure(figsize=total / DPI, dpi=DPI)
+
+    def add(x, y, w, h):
+        return figure.add_axes([x / total[0], y / total[1], w / total[0], h / total[1]])
+
+    axes = []
+    for k in range(count):
+        column, row = k % columns, k // columns
+        axes.append(add(left + column * (wide + gap),
+                        total[1] - top - (row + 1) * high - row * between, wide, high))
+        axes[-1].tick_params(labelleft=column == 0, labelbottom=k + columns >= count)
+        if column == 0:
+            axes[-1].set_ylabel("y (mm)")
+        if k + columns >= count:
+            axes[-1].set_xlabel("x (mm)")
+    bar = add(all_wide - right + 0.12 * DPI, bottom, 0.11 * DPI, total[1] - top - bottom)
+    return figure, axes, bar, wide
+
+
+def four_maps(case, field, colours, label, limit_of, scale=1):
+    """Maps of a field with one colour scale; returns the figure."""
+    chosen = chosen_steps(case)
+    values = [scale * case.field(step, field) for step, _ in chosen]
+    limit = limit_of(values)
+    figure, axes, bar, pixels = panels(case, len(chosen))
+    for a, v, (_, time) in zip(axes, values, chosen):
+        image = show(a, case, paint(case, v, pixels), colours, limit)
+        outline_holes(a, case)
+        a.set_title("t = %.4g µs" % time, pad=3)
+    extend = "max" if limit < max(v.max() for v in values) else "neither"
+    figure.colorbar(image, cax=bar, label=label, extend=extend)
+    return figure
+
+
+def save(case, figure, name):
+    path = case.path("pictures/%s.png" % name)
+    figure.savefig(path, dpi=DPI)
+    plt.close(figure)
+    return path
+
+
+def damage(case):
+    figure = four_maps(case, "Damage", DAMAGE, "damage", lambda values: 1)
+    return save(case, figure, "damage")
+
+
+def energy_limit(values):
+    """Colour limit: 99.7 % of all cells lie below, so that a few at the tips do not dim the rest."""
+    limit = max(np.percentile(v, 99.7) for v in values)
+    return limit if limit > 0 else 1
+
+
+def energy(case):
+    figure = four_maps(case, "Stored_Elastic_Energy_Density", ENERGY,
+                       "strain energy density (kJ/m³)", energy_limit, 1e-3)
+    return save(case, figure, "energy")
+
+
+# ---- the grid ----------------------------------------------------------------------------------
+
+def close_up(case):
+    """Lower and upper corner [mm]: about 3 radii wide around the hole nearest to the plate's
+    middle, or 40 spacings around the middle where there is no hole."""
+    lower, upper = case.box()
+    middle, half = (lower + upper) / 2, 20 * case.cells()[4]
+    if case.holes:
+        hole = min(case.holes, key=lambda h: np.hypot(h[0] - middle[0], h[1] - middle[1]))
+        middle, half = np.array(hole[:2]), 1.6 * hole[2]
+    return middle - half, middle + half
+
+
+def grid(case):
+    point, first, vertex, area, spacing = case.cells()
+    low, high = close_up(case)
+    centre = point[vertex[first[:-1]]]
+    seen = np.flatnonzero(((centre > low - 2 * spacing) & (centre < high + 2 * spacing)).all(axis=1))
+    figure, axes = plt.subplots(figsize=(4.6, 3.9), constrained_layout=True)
+    cells = PolyCollection([point[vertex[first[k]:first[k + 1]]] for k in seen],
+                           array=area[seen] / spacing**2, cmap="YlGnBu", edgecolor="0.25",
+                           linewidth=0.25)
+    cells.set_clim(0, max(1.5, np.percentile(area[seen] / spacing**2, 99.5)))
+    axes.add_collection(cells)
+    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), xlabel="x (mm)", ylabel="y (mm)",
+             aspect="equal")
+    axes.set_title("%d cells, %d shown; spacing %.4g mm" % (len(area), len(seen), spacing))
+    figure.colorbar(cells, ax=axes, label="area of a cell / spacing²", shrink=0.9)
+    return save(case, figure, "grid")

@@ -1,0 +1,84 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pictures of a case: plot.py FOLDER [PICTURE...] [--hole X,Y,RADIUS]...   (metres)
+
+Started by kirsch-plot. It draws and computes nothing mechanical. A picture whose files are missing
+is told and left out; the others are drawn all the same.
+"""
+import os
+import sys
+
+try:
+    from results import Case, Fault
+    import curves
+    import maps
+    import movie
+except ImportError as missing:
+    print("kirsch-plot: %s; pictures need Debian's python3-numpy, python3-matplotlib and "
+          "python3-h5py" % missing, file=sys.stderr)
+    sys.exit(5)
+
+PICTURES = {
+    "grid": maps.grid,
+    "damage": maps.damage,
+    "energy": maps.energy,
+    "speed": curves.speed,
+    "tip": curves.tip,
+    "history": curves.history,
+    "crack": movie.crack,
+}
+
+
+def arguments(words):
+    """Folder, names of pictures, holes."""
+    folder, names, holes = None, [], []
+    words = list(words)
+    while words:
+        word = words.pop(0)
+        if word == "--hole" and words:
+            holes.append(tuple(float(x) for x in words.pop(0).split(",")))
+        elif folder is None:
+            folder = word
+        elif word in PICTURES:
+            names.append(word)
+        else:
+            raise Fault("unknown picture `%s`; there are %s" % (word, ", ".join(PICTURES)))
+    if folder is None:
+        raise Fault("the folder of the case is missing")
+    return folder, names or list(PICTURES), holes
+
+
+def draw_all(case, names):
+    """Draw; returns whether each asked for could be drawn."""
+    complete = True
+    os.makedirs(case.path("pictures"), exist_ok=True)
+    for name in names:
+        try:
+            path = PICTURES[name](case)
+        except Fault as fault:
+            print("kirsch-plot: no picture `%s`: %s" % (name, fault), file=sys.stderr)
+            complete = False
+            continue
+        if path:
+            print(path, flush=True)
+    return complete
+
+
+def main():
+    try:
+        folder, names, holes = arguments(sys.argv[1:])
+        if not draw_all(Case(folder, holes), names):
+            sys.exit(2)
+    except Fault as fault:
+        print("kirsch-plot: %s" % fault, file=sys.stderr)
+        sys.exit(2)
+    except OSError as fault:
+        print("kirsch-plot: cannot read or write: %s" % fault, file=sys.stderr)
+        sys.exit(3)
+    except (KeyError, ValueError) as fault:
+        print("kirsch-plot: a file in the case's folder lacks what it should hold: %s" % fault,
+              file=sys.stderr)
+        sys.exit(2)
+
+
+main()

@@ -1,0 +1,121 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# kirsch-track and kirsch-plot on a drawn run: results, pictures, and each file missing or cut.
+build=${BUILD:-build}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+count=0
+
+# Run a check by name, unless ONLY leaves it out. What it says is shown if it fails.
+check() { # name, command...
+    name=$1
+    shift
+    case "plot_$name" in *"$ONLY"*) ;; *) return ;; esac
+    count=$((count + 1))
+    if "$@" >"$work/said" 2>&1; then
+        echo "ok $count - $name"
+    else
+        echo "not ok $count - $name"
+        sed 's/^/# /' "$work/said"
+    fi
+}
+run=$work/case
+track() { "$build/kirsch-track" --output "$run" "$run/case.yaml"; }
+plot() { "$build/kirsch-plot" --output "$run" "$run/case.yaml" "$@"; }
+
+# Value of the summary within a tolerance.
+near() { # name, wanted, tolerance
+    awk -F, -v name="$1" -v wanted="$2" -v tolerance="$3" '
+        $1 == name { seen = 1; got = $2; off = got - wanted; if (off < 0) off = -off }
+        END { if (!seen || off > tolerance) {
+                  print name ": got " got ", wanted " wanted ", tolerance " tolerance; exit 1 } }
+    ' "$run/summary.csv"
+}
+
+# The command must end with the code and say the words on one line, without a trace.
+stops() { # code, words, command...
+    wanted=$1
+    words=$2
+    shift 2
+    "$@" >"$work/stop" 2>&1
+    code=$?
+    cat "$work/stop"
+    [ $code -eq "$wanted" ] || { echo "ended with $code, wanted $wanted"; return 1; }
+    grep -q "$words" "$work/stop" || { echo "does not say: $words"; return 1; }
+    ! grep -q "Traceback" "$work/stop"
+}
+
+is_png() { # name, least bytes
+    file="$run/pictures/$1.png"
+    [ "$(head -c 4 "$file" | tail -c 3)" = PNG ] && [ "$(wc -c <"$file")" -gt "$2" ]
+}
+
+# The crack starts at 20 us and takes 1.1 us for the first two cells of 0.25 mm.
+tracks() { track && near branches 2 0 && near cracks 1 0 && near first_growth 20.55e-6 0.55e-6; }
+# 46.9 mm along x in 99.7 us: 470 m/s, to the nearest of cells of 0.25 mm
+speeds() { near mean_speed 470 6 && near rayleigh_speed 929 1; }
+tells_tips() { head -n 1 "$run/tips.csv" |
+    grep -q '^time \[s\],box,x \[m\],y \[m\],speed \[m/s\],speed_over_rayleigh$'; }
+boxes() {
+    "$build/kirsch-track" --output "$run" --set 'track.boxes=[{lower: [0 mm, 0 mm], upper: [30 mm, 25 mm], direction: +x}, {lower: [30 mm, 0 mm], upper: [50 mm, 12 mm], direction: +x}]' \
+        "$run/case.yaml" && near tip_x_box_1 29.875e-3 2.5e-4 && near mean_speed_box_2 450 9
+}
+draws_all() {
+    plot >"$work/paths" || return 1
+    for picture in grid damage energy speed tip history; do
+        is_png $picture 10000 || { echo "$picture.png is not as expected"; return 1; }
+    done
+    [ "$(wc -l <"$work/paths")" -eq 7 ] && [ -s "$run/pictures/crack.mp4" ]
+}
+draws_one() { [ "$(plot tip)" = "$run/pictures/tip.png" ]; }
+without_ffmpeg() { # a PATH on which there is none
+    stops 0 'warning: no film: cannot start ffmpeg' env PATH="$work" "$build/kirsch-plot" \
+        --output "$run" "$run/case.yaml" tip crack
+}
+without_tips() { # the others are drawn all the same
+    mv "$run/tips.csv" "$work/tips.csv"
+    stops 2 'no picture `speed`: .*tips.csv is missing' plot speed history
+    result=$?
+    mv "$work/tips.csv" "$run/tips.csv"
+    [ $result -eq 0 ] && grep -q 'history.png' "$work/stop"
+}
+cut_run() {
+    cp "$run/run.h5" "$work/whole.h5"
+    truncate -s 100000 "$run/run.h5"
+    stops 2 'run.h5: it is cut short or damaged' track &&
+        stops 2 'run.h5: .*cut short or damaged' plot damage
+    result=$?
+    cp "$work/whole.h5" "$run/run.h5"
+    return $result
+}
+no_gaps() { # every pixel of the plate belongs to a cell, and none of the hole does
+    PYTHONPATH="$build" /usr/bin/python3 -B - "$run/plate.nodes.h5" <<'END'
+import sys, h5py, numpy as np
+from raster import raster
+with h5py.File(sys.argv[1]) as f:
+    point, first, vertex = (f["cells/" + n][:] for n in ("point", "first", "vertex"))
+for columns in (77, 640, 2001):
+    rows = columns // 2
+    cell = raster(point, first, vertex, point.min(axis=0), point.max(axis=0), (rows, columns))
+    x, y = np.meshgrid((np.arange(columns) + 0.5) / columns * 50e-3, (np.arange(rows) + 0.5) / rows * 25e-3)
+    r = np.hypot(x - 15e-3, y - 12.5e-3)
+    gaps, filled = (cell[r > 1.5e-3] < 0).sum(), (cell[r < 1.49e-3] >= 0).sum()
+    assert gaps == 0 and filled == 0, (columns, gaps, filled)
+END
+}
+
+/usr/bin/python3 -B tests/cli/synthetic.py "$run" 0.25 12 || echo "not ok 1 - the drawn run"
+track >"$work/said" 2>&1
+check track_counts_branches tracks
+check track_measures_speed speeds
+check track_writes_tips tells_tips
+check track_uses_boxes boxes
+track >"$work/said" 2>&1
+check draws_all_pictures draws_all
+check draws_one_picture draws_one
+check refuses_an_unknown_picture stops 2 'unknown picture `dammage`' plot dammage
+check goes_on_without_ffmpeg without_ffmpeg
+check goes_on_without_tips without_tips
+check tells_a_cut_run cut_run
+check fills_every_pixel no_gaps
+check refuses_an_unknown_argument stops 2 'unknown' "$build/kirsch-track" "$run/case.yaml" --fast
