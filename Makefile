@@ -51,7 +51,7 @@ KERNEL_baseline :=
 KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 
-.PHONY: all help demo test bench deps docs format install clean check-deps
+.PHONY: FORCE all help demo test bench deps docs format install clean check-deps
 all: check-deps $(programs) $(scripts)
 
 help:
@@ -63,6 +63,13 @@ check-deps:
 
 deps:
 	@tests/deps install $(PACKAGES)
+
+# The version is compiled into one file only; it is built anew when the version changes.
+$(BUILD)/solver/base/provenance.o: $(BUILD)/version
+$(BUILD)/version: FORCE
+	@mkdir -p $(@D)
+	@echo '$(VERSION)' | cmp -s - $@ || echo '$(VERSION)' > $@
+FORCE:
 
 # ---- building -------------------------------------------------------------------------------
 $(BUILD)/libkirsch.a: $(library_o) $(kernel_o)

@@ -134,6 +134,19 @@ double kr_body_energy(struct kr_body *body) {
     return kr_body_sum(body->n, energy_of_node, body);
 }
 
+void kr_body_advance(struct kr_body *body, double kick, double drift) {
+    const double push = kick / body->bonds->material.density;
+    for (int d = 0; d < body->dim; d++) {
+        double *restrict u = body->u[d], *restrict v = body->v[d];
+        const double *restrict force = body->force[d];
+#pragma omp parallel for simd schedule(static)
+        for (size_t i = 0; i < body->n; i++) {
+            v[i] += push * force[i];
+            u[i] += drift * v[i];
+        }
+    }
+}
+
 double kr_body_sum(size_t n, double (*term)(const void *context, size_t i), const void *context) {
     enum { CHUNK = 4096 };
     size_t chunks = (n + CHUNK - 1) / CHUNK;

@@ -38,6 +38,9 @@ void kr_body_force(struct kr_body *body, int may_break);
 /** Strain energy density of every node into body->energy; returns the total [J/m in 2D]. */
 double kr_body_energy(struct kr_body *body);
 
+/** v += kick * force/rho, then u += drift * v, for all nodes; times in s; theory.md (12). */
+void kr_body_advance(struct kr_body *body, double kick, double drift);
+
 /** Sum of term(context, i) over all nodes, by a fixed tree: same bits for any number of threads. */
 double kr_body_sum(size_t n, double (*term)(const void *context, size_t i), const void *context);
 

@@ -21,20 +21,6 @@
 
 #include <math.h>
 
-/* Kick and drift of all nodes; prescribed ones have their velocity already and no force. */
-static void advance(struct kr_body *body, double dt, int first) {
-    const double kick = (first ? 0.5 * dt : dt) / body->bonds->material.density;
-    for (int d = 0; d < body->dim; d++) {
-        double *restrict u = body->u[d], *restrict v = body->v[d];
-        const double *restrict force = body->force[d];
-#pragma omp parallel for simd schedule(static)
-        for (size_t i = 0; i < body->n; i++) {
-            v[i] += kick * force[i];
-            u[i] += dt * v[i];
-        }
-    }
-}
-
 /* What is recorded while the loop runs. */
 struct records {
     struct kr_crack *crack;
@@ -61,7 +47,7 @@ static struct records records_open(struct kr_run *run, const char *deck_text) {
 }
 
 static void records_close(struct records *r, long steps) {
-    kr_output_close(r->output, steps);
+    kr_output_close(r->output, r->ledger, steps);
     kr_history_close(r->history);
     kr_crack_free(r->crack);
     kr_ledger_free(r->ledger);
@@ -94,7 +80,7 @@ void kr_run_solve(struct kr_run *run, const char *deck_text) {
         if (step == run->steps)
             break;
         kr_boundary_hold(run->boundary, body, t, run->dt);
-        advance(body, run->dt, step == 0);
+        kr_body_advance(body, step == 0 ? 0.5 * run->dt : run->dt, run->dt);
         kr_progress_show(&progress, (double)step, "t %.4g us, %zu bonds broken, balance %.1e of %.3g J/m",
                          1e6 * t, r.crack->count, kr_ledger_balance(r.ledger), r.ledger->external);
     }
