@@ -33,7 +33,7 @@ static void check_mesh(struct kr_deck *deck, const struct kr_case *c) {
         kr_deck_fault(deck, &c->spacing,
                       "%g m gives %.2g nodes on this plate, more than %g; take a coarser spacing",
                       c->spacing, c->width / c->spacing * (c->height / c->spacing), most_nodes);
-    if (c->horizon > 0 && c->horizon < 2 * c->spacing * (1 - rounding))
+    else if (c->horizon < 2 * c->spacing * (1 - rounding))
         kr_deck_fault(deck, &c->horizon,
                       "%g m is %.3g spacings; it must be at least 2, and 3 to 6 are usual",
                       c->horizon, c->horizon / c->spacing);
@@ -95,7 +95,7 @@ static int is_name(const char *text) {
 
 static void check_box(struct kr_deck *deck, const double *lower, const double *upper) {
     for (int k = 0; k < 2; k++)
-        if (!(lower[k] < upper[k]))
+        if (lower[k] >= upper[k])
             kr_deck_fault(deck, upper, "%c = %g m is not above that of `lower`, %g m", "xy"[k],
                           upper[k], lower[k]);
 }
@@ -138,7 +138,8 @@ static const struct kr_case_set *set_named(const struct kr_case *c, const char *
 static void check_reference(struct kr_deck *deck, const struct kr_case *c,
                             const char *const *place) {
     const struct kr_case_set *sets = c->sets.item;
-    if (!*place || set_named(c, *place))
+    int unread = kr_deck_given(deck, &c->sets) && !c->sets.given; /* a fault of the reader */
+    if (!*place || unread || set_named(c, *place))
         return;
     char known[256] = "";
     for (size_t i = 0; i < c->sets.count; i++) {

@@ -49,11 +49,15 @@ const struct kr_deck_key *kr_deck_row(const struct kr_deck_key *keys, const char
     return NULL;
 }
 
+/* Twice the distance, and one more where the first letters differ: people rarely miss that one. */
+static size_t rank(const char *name, const char *known) {
+    return 2 * kr_deck_distance(name, known) + (letter(*name) != letter(*known));
+}
+
 const struct kr_deck_key *kr_deck_nearest(const struct kr_deck_key *keys, const char *name) {
     const struct kr_deck_key *best = NULL;
     for (; keys->name; keys++)
-        if (is_near(name, keys->name) &&
-            (!best || kr_deck_distance(name, keys->name) < kr_deck_distance(name, best->name)))
+        if (is_near(name, keys->name) && (!best || rank(name, keys->name) < rank(name, best->name)))
             best = keys;
     return best;
 }

@@ -192,6 +192,12 @@ void kr_deck_override(struct kr_deck *deck, const char *variant, size_t n_set,
         lay_set(deck, set[i]);
 }
 
+static int has_items(const struct kr_deck_key *row) {
+    return row->type == KR_DECK_LIST || row->type == KR_DECK_MAP || row->type == KR_DECK_VECTOR ||
+           row->type == KR_DECK_NUMBERS || row->type == KR_DECK_TEXTS ||
+           row->type == KR_DECK_FORMULAS;
+}
+
 /* Row and rest of a dotted key: complains and gives NULL where the table does not know it. */
 static const struct kr_deck_key *follow(struct kr_deck *deck, const struct kr_deck_node *key,
                                         const char *path) {
@@ -204,7 +210,7 @@ static const struct kr_deck_key *follow(struct kr_deck *deck, const struct kr_de
             break;
         }
         keys = row->keys;
-        if (row->type != KR_DECK_SECTION && rest)
+        if (has_items(row) && rest)
             strsep(&rest, "."); /* the number or name of an item */
     }
     if (row && !keys && rest) {

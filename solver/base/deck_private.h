@@ -6,6 +6,7 @@
  *   deck_override.c  variants and --set: changes to the tree
  *   deck_read.c      tree + table -> struct, key by key
  *   deck_value.c     one scalar of the tree -> one place in the struct
+ *   deck_formula.c   the same for expressions with units
  *   deck_nearest.c   "did you mean"
  *   deck_print.c     the deck as understood, and the reference of its keys
  *   deck.c           opening, faults, closing
@@ -29,6 +30,7 @@ struct kr_deck_node {
     struct kr_deck_mark at;      /* of the value (a mapping's: its first key) */
     struct kr_deck_mark name_at; /* of the key */
     char *text;                  /* SCALAR; "" where nothing is written */
+    int refused;                 /* a fault was found already; there is nothing to read */
     size_t count, room;
     struct kr_deck_node **item; /* SEQUENCE, MAPPING */
 };
@@ -102,10 +104,18 @@ void kr_deck_check_variants(struct kr_deck *deck);
 /* ---- deck_value.c */
 /** Read the node of a row that is no section, list or map of keys. Faults are collected. */
 void kr_deck_value(const struct kr_deck_spot *spot, void *place);
+/** Complain: "found '3', expected true or false", and `cure` behind it. */
+void kr_deck_mismatch(const struct kr_deck_spot *spot, const char *cure);
+/** Put NaN into the numbers of a row that cannot be read or is missing. */
+void kr_deck_spoil(const struct kr_deck_key *key, void *place);
 /** What a row expects, in words, owned by the caller. */
 char *kr_deck_expected(const struct kr_deck_key *key);
 /** The n-th of words separated by blanks: its beginning and length; NULL past the last. */
 const char *kr_deck_word(const char *words, size_t n, int *length);
+
+/* ---- deck_formula.c */
+/** Read one formula. Faults are collected. */
+void kr_deck_formula_read(const struct kr_deck_spot *spot, struct kr_deck_formula *place);
 
 /* ---- deck_nearest.c */
 /** How many letters must change to make b from a, upper and lower case and - and _ being equal. */

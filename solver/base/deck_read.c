@@ -24,21 +24,12 @@ static int is_empty(const struct kr_deck_node *node) {
     return node->kind == KR_DECK_SCALAR && !*node->text;
 }
 
-/* Complain that a node has another shape than its row. */
-static void wrong_shape(const struct kr_deck_spot *spot) {
-    char *found = kr_deck_node_show(spot->node), *expected = kr_deck_expected(spot->key);
-    kr_deck_complain(spot->deck, spot->node->at, spot->path, "found %s, expected %s", found,
-                     expected);
-    kr_free(found);
-    kr_free(expected);
-}
-
 /* A section may be empty or left out: its keys' defaults then stand. */
 static void read_section(const struct kr_deck_spot *spot, char *into) {
     struct kr_deck_node nothing = {.kind = KR_DECK_MAPPING, .at = spot->node->at};
     const struct kr_deck_node *mapping = is_empty(spot->node) ? &nothing : spot->node;
     if (mapping->kind != KR_DECK_MAPPING)
-        wrong_shape(spot);
+        kr_deck_mismatch(spot, "");
     else
         read_keys(
             &(struct reading){spot->deck, spot->key->keys, mapping, spot->path, spot->given, into});
@@ -64,7 +55,7 @@ static void read_items(const struct kr_deck_spot *spot, struct kr_deck_list *lis
     int is_map = spot->key->type == KR_DECK_MAP;
     kr_deck_note(spot, list);
     if (node->kind != (is_map ? KR_DECK_MAPPING : KR_DECK_SEQUENCE)) {
-        wrong_shape(spot);
+        kr_deck_mismatch(spot, "");
         return;
     }
     list->given = spot->given;
@@ -111,27 +102,47 @@ static void dispatch(const struct kr_deck_spot *spot, char *place) {
     }
 }
 
+/* Whether an unknown key of the mapping is this one misspelt: it is then not missing as well. */
+static int is_misspelt(const struct reading *reading, const struct kr_deck_key *key) {
+    for (size_t i = 0; i < reading->mapping->count; i++) {
+        const char *name = reading->mapping->item[i]->name;
+        if (!kr_deck_row(reading->keys, name) && kr_deck_nearest(reading->keys, name) == key)
+            return 1;
+    }
+    return 0;
+}
+
+/* Complain about a key that must be given. */
+static void miss(const struct reading *reading, const struct kr_deck_spot *spot) {
+    if (is_misspelt(reading, spot->key))
+        return;
+    char *expected = kr_deck_expected(spot->key);
+    kr_deck_complain(spot->deck, spot->node->at, spot->path, "missing; expected %s", expected);
+    kr_free(expected);
+}
+
 /* Read one row of the table: what the deck gives, or the default, or nothing where it may lack. */
 static void read_row(const struct reading *reading, const struct kr_deck_key *key) {
     struct kr_deck_node nothing = {.kind = KR_DECK_MAPPING, .at = reading->mapping->at};
     const struct kr_deck_node *node = kr_deck_node_find(reading->mapping, key->name);
     char *path = kr_text("%s%s%s", reading->path, *reading->path ? "." : "", key->name);
     char *place = reading->into + key->offset;
-    struct kr_deck_spot spot = {reading->deck, key, node, path, node && reading->given};
-    if (!node)
-        spot.node = &nothing;
-    if (node || key->type == KR_DECK_SECTION) {
+    struct kr_deck_spot spot = {reading->deck, key, node ? node : &nothing, path,
+                                node && reading->given};
+    if (node && node->refused) {
+        kr_deck_note(&spot, place);
+        kr_deck_spoil(key, place);
+    } else if (node || key->type == KR_DECK_SECTION) {
         dispatch(&spot, place);
-    } else if (!key->fallback) {
-        char *expected = kr_deck_expected(key);
-        kr_deck_complain(reading->deck, nothing.at, path, "missing; expected %s", expected);
-        kr_deck_note(&spot, place);
-        kr_free(expected);
-    } else if (!*key->fallback) {
-        kr_deck_note(&spot, place);
-    } else {
+    } else if (key->fallback && *key->fallback) {
         spot.node = fallback_of(reading, key);
         dispatch(&spot, place);
+    } else {
+        kr_deck_note(&spot, place);
+        if (!key->fallback) {
+            miss(reading, &spot);
+            kr_deck_spoil(key, place);
+        }
     }
     kr_free(path);
 }

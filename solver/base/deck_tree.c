@@ -59,11 +59,15 @@ char *kr_deck_node_show(const struct kr_deck_node *node) {
                        : kr_text("nothing");
 }
 
-/* Place of a libfyaml scalar; `fallback` where it has none (it is not written at all). */
+/* Place of a libfyaml scalar; `fallback` where it has none (it is not written at all). libfyaml
+   marks what stands within quotes; people look for the quote. */
 static struct kr_deck_mark mark_of(struct fy_node *from, struct kr_deck_mark fallback) {
     struct fy_token *token = fy_node_is_scalar(from) ? fy_node_get_scalar_token(from) : NULL;
     const struct fy_mark *mark = token ? fy_token_start_mark(token) : NULL;
-    return mark ? (struct kr_deck_mark){mark->line + 1, mark->column + 1} : fallback;
+    enum fy_node_style style = fy_node_get_style(from);
+    int quoted =
+        mark && mark->column > 0 && (style == FYNS_SINGLE_QUOTED || style == FYNS_DOUBLE_QUOTED);
+    return mark ? (struct kr_deck_mark){mark->line + 1, mark->column + 1 - quoted} : fallback;
 }
 
 /* Text of a scalar. A NUL can come from an escape ("\0"); it would cut the text silently. */
@@ -141,12 +145,13 @@ static struct kr_deck_node *copy_node(struct copier *copier, struct fy_node *fro
                                       struct kr_deck_mark at, const char *path) {
     struct kr_deck_node *node = kr_deck_node_create(KR_DECK_SCALAR, at);
     size_t length = 0;
-    if (from && fy_node_is_alias(from))
+    node->refused = from && fy_node_is_alias(from);
+    if (node->refused)
         kr_deck_complain(copier->deck, at, path, "an alias ('*name'); write the value out");
     else if (from && fy_node_get_tag(from, &length))
         kr_deck_complain(copier->deck, at, path, "a YAML tag ('!name'), which decks do not use");
     if (!from || fy_node_is_scalar(from)) {
-        node->text = from && !fy_node_is_alias(from) ? text_of(copier, from, at) : kr_text_copy("");
+        node->text = from && !node->refused ? text_of(copier, from, at) : kr_text_copy("");
     } else if (fy_node_is_sequence(from)) {
         node->kind = KR_DECK_SEQUENCE;
         copy_items(copier, from, node, path);
@@ -167,6 +172,15 @@ static char *first_message(struct fy_diag *diag, struct kr_deck_mark *at) {
     return kr_text_copy(error && error->msg ? error->msg : "it cannot be parsed");
 }
 
+/* Sentence about a second document, and its place. */
+static char *second_document(struct copier *copier, struct fy_document *second,
+                             struct kr_deck_mark *at) {
+    struct kr_deck_node *tree = copy_node(copier, fy_document_root(second), *at, "");
+    *at = tree->at;
+    kr_deck_node_free(tree);
+    return kr_text_copy("a second document begins here, after '---'; a deck is one");
+}
+
 /* Parse with libfyaml and copy the one document that may stand there. */
 static struct kr_deck_node *parse_with(struct fy_parser *parser, struct fy_diag *diag,
                                        struct copier *copier, struct kr_deck_mark *wrong,
@@ -178,7 +192,7 @@ static struct kr_deck_node *parse_with(struct fy_parser *parser, struct fy_diag 
     if (fy_diag_got_error(diag))
         *why = first_message(diag, wrong);
     else if (second)
-        *why = kr_text_copy("a second document begins with '---' in it");
+        *why = second_document(copier, second, wrong);
     else
         tree = copy_node(copier, document ? fy_document_root(document) : NULL, start, "");
     if (second)

@@ -1,14 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Single values: text of the deck -> number, word, vector, formula in the struct.
- *
- * A formula is an expression and then a unit, "0.3*min(t/200e-6, 1) m/s". Nothing marks where one
- * ends and the other begins, so the shortest tail is taken that is a unit of the right kind and
- * leaves an expression before it.
+ * Single values: text of the deck -> number, word, vector in the struct. A number that cannot be
+ * read becomes NaN: comparisons with it are false, so that checks made later, before the faults
+ * stop the program, do not complain about it a second time.
  */
 #include "base/deck_private.h"
 #include "base/error.h"
-#include "base/expression.h"
 #include "base/memory.h"
 #include "base/unit.h"
 
@@ -109,13 +106,18 @@ char *kr_deck_expected(const struct kr_deck_key *key) {
     return text;
 }
 
-/* "found '3', expected true or false", and `cure` behind it. */
-static void mismatch(const struct kr_deck_spot *spot, const char *cure) {
+void kr_deck_mismatch(const struct kr_deck_spot *spot, const char *cure) {
     char *found = kr_deck_node_show(spot->node), *expected = kr_deck_expected(spot->key);
     kr_deck_complain(spot->deck, spot->node->at, spot->path, "found %s, expected %s%s", found,
                      expected, cure);
     kr_free(found);
     kr_free(expected);
+}
+
+void kr_deck_spoil(const struct kr_deck_key *key, void *place) {
+    size_t count = key->type == KR_DECK_NUMBER ? 1 : key->type == KR_DECK_VECTOR ? key->count : 0;
+    for (size_t i = 0; i < count; i++)
+        ((double *)place)[i] = NAN;
 }
 
 /* Whether the value lies in the row's range; complains if not. */
@@ -139,6 +141,7 @@ static void read_number(const struct kr_deck_spot *spot, double *place) {
     double value = 0;
     char *why = NULL;
     kr_deck_note(spot, place);
+    *place = NAN;
     if (spot->node->kind != KR_DECK_SCALAR || !*spot->node->text) {
         char *found = kr_deck_node_show(spot->node), *expected = expected_number(spot->key);
         kr_deck_complain(spot->deck, spot->node->at, spot->path, "found %s, expected %s", found,
@@ -159,7 +162,7 @@ static void read_integer(const struct kr_deck_spot *spot, int64_t *place) {
     errno = 0;
     long long value = text ? strtoll(text, &end, 10) : 0;
     if (!text || !*text || isspace((unsigned char)*text) || *end || errno)
-        mismatch(spot, errno ? "; it is too large" : "");
+        kr_deck_mismatch(spot, errno ? "; it is too large" : "");
     else if (in_range(spot, (double)value))
         *place = value;
 }
@@ -167,7 +170,7 @@ static void read_integer(const struct kr_deck_spot *spot, int64_t *place) {
 static void read_boolean(const struct kr_deck_spot *spot, int *place) {
     const char *text = spot->node->text ? spot->node->text : "";
     if (strcmp(text, "true") && strcmp(text, "false"))
-        mismatch(spot, "");
+        kr_deck_mismatch(spot, "");
     else
         *place = *text == 't';
 }
@@ -186,106 +189,8 @@ static void read_choice(const struct kr_deck_spot *spot, int *place) {
         kr_free(known);
     }
     if (!found)
-        mismatch(spot, cure ? cure : "");
+        kr_deck_mismatch(spot, cure ? cure : "");
     kr_free(cure);
-}
-
-/* ---- formulas ---- */
-
-/* Sentence about a text that is no expression with finite value; NULL if it is one. A value that
-   varies cannot be judged before it is used, so it may be infinite here. */
-static char *fault_of(const char *text) {
-    char *why = NULL;
-    struct kr_expression *expression = kr_expression_create(text, &why);
-    if (!expression)
-        return why;
-    int varies =
-        kr_expression_varies_in_space(expression) || kr_expression_varies_in_time(expression);
-    if (!varies && !isfinite(kr_expression_value(expression, 0, 0, 0, 0)))
-        why = kr_text_copy("its value is not finite");
-    kr_expression_free(expression);
-    return why;
-}
-
-/* Whether a unit may begin at text + i: after a blank, a digit or a bracket, but not in the
-   exponent of a number (1e-3) nor within a word. */
-static int may_begin_unit(const char *text, size_t i) {
-    unsigned char c = (unsigned char)text[i], before = (unsigned char)text[i - 1];
-    if (!isalpha(c) && c < 0x80)
-        return 0;
-    if ((c == 'e' || c == 'E') && (isdigit(before) || before == '.') &&
-        (isdigit((unsigned char)text[i + 1]) || strchr("+-", text[i + 1])))
-        return 0;
-    return isspace(before) || isdigit(before) || before == ')' || before == '.';
-}
-
-/* Split off the unit, in place. Returns its factor; 0 where no split works, with a sentence. */
-static double split(char *text, const char *unit, char **why) {
-    size_t length = strlen(text);
-    for (size_t i = length; i-- > 1;) {
-        double factor = may_begin_unit(text, i) ? kr_unit_factor(text + i, unit) : 0;
-        if (factor == 0)
-            continue;
-        char *head = kr_text("%.*s", (int)i, text), *fault = fault_of(head);
-        kr_free(head);
-        if (!fault) {
-            while (i && isspace((unsigned char)text[i - 1]))
-                i--;
-            text[i] = 0;
-            kr_free(*why);
-            *why = NULL;
-            return factor;
-        }
-        kr_free(*why);
-        *why = fault;
-    }
-    return 0;
-}
-
-/* Sentence for a formula that could not be split; `fault` is what was wrong with its head where a
-   unit was found. */
-static char *explain(const char *text, const char *unit, const char *fault) {
-    double number;
-    char *why = NULL, *bare = fault_of(text);
-    if (fault)
-        why = kr_text("found '%.60s': %s", text, fault);
-    else if (bare && kr_unit_number(text, &number) &&
-             kr_unit_read(text, unit, &number, &why) == 0 && why)
-        ; /* a plain quantity with a wrong unit: the units' own sentence */
-    else
-        why = kr_text("found '%.60s', expected %s%s with its unit at the end, such as '%.60s %s'",
-                      text, bare ? "an expression in x, y, z, t of " : "", kr_unit_noun(unit),
-                      bare ? "2*t" : text, kr_unit_common(unit));
-    kr_free(bare);
-    return why;
-}
-
-static void read_formula(const struct kr_deck_spot *spot, struct kr_deck_formula *place) {
-    const char *unit = spot->key->unit;
-    char *fault = NULL;
-    kr_deck_note(spot, place);
-    if (spot->node->kind != KR_DECK_SCALAR || !*spot->node->text) {
-        mismatch(spot, "");
-        return;
-    }
-    char *text = kr_deck_own(spot->deck, kr_text_copy(spot->node->text));
-    if (!strcmp(text, "free")) {
-        *place = (struct kr_deck_formula){text, 1, 1};
-    } else if (!strcmp(unit, "1")) {
-        fault = fault_of(text);
-        *place = (struct kr_deck_formula){text, 1, 0};
-        if (fault)
-            kr_deck_complain(spot->deck, spot->node->at, spot->path, "found '%.60s': %s", text,
-                             fault);
-    } else {
-        double factor = split(text, unit, &fault);
-        *place = (struct kr_deck_formula){text, factor, 0};
-        char *why = factor == 0 ? explain(text, unit, fault) : NULL;
-        if (why)
-            kr_deck_complain(spot->deck, spot->node->at, spot->path, "%s", why);
-        kr_free(why);
-    }
-    kr_free(fault);
 }
 
 /* ---- lists of values ---- */
@@ -319,7 +224,7 @@ static void read_each(const struct kr_deck_spot *spot, char *place, size_t size)
         item.node = spot->node->item[i];
         void *into = place + i * size;
         if (spot->key->type == KR_DECK_FORMULAS)
-            read_formula(&item, into);
+            kr_deck_formula_read(&item, into);
         else if (spot->key->type == KR_DECK_TEXTS)
             read_text(&item, into);
         else
@@ -328,21 +233,25 @@ static void read_each(const struct kr_deck_spot *spot, char *place, size_t size)
     }
 }
 
+/* VECTOR and FORMULAS. The whole is noted after its parts, so that the address which it shares with
+   the first of them leads to the whole. */
 static void read_fixed(const struct kr_deck_spot *spot, void *place, size_t size) {
     const struct kr_deck_node *node = spot->node;
     int fewer = spot->key->type == KR_DECK_FORMULAS;
-    kr_deck_note(spot, place);
     if (node->kind != KR_DECK_SEQUENCE || node->count > spot->key->count || !node->count ||
-        (node->count < spot->key->count && !fewer))
-        mismatch(spot, comma_cure(node));
-    else
+        (node->count < spot->key->count && !fewer)) {
+        kr_deck_mismatch(spot, comma_cure(node));
+        kr_deck_spoil(spot->key, place);
+    } else {
         read_each(spot, place, size);
+    }
+    kr_deck_note(spot, place);
 }
 
 static void read_list(const struct kr_deck_spot *spot, struct kr_deck_list *list, size_t size) {
     kr_deck_note(spot, list);
     if (spot->node->kind != KR_DECK_SEQUENCE) {
-        mismatch(spot, "");
+        kr_deck_mismatch(spot, "");
         return;
     }
     list->given = spot->given;
@@ -360,7 +269,7 @@ void kr_deck_value(const struct kr_deck_spot *spot, void *place) {
         read_text(spot, place);
         return;
     case KR_DECK_FORMULA:
-        read_formula(spot, place);
+        kr_deck_formula_read(spot, place);
         return;
     case KR_DECK_VECTOR:
         read_fixed(spot, place, sizeof(double));

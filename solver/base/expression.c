@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 
+#include <ctype.h>
 #include <muParserDLL.h>
 #include <string.h>
 
@@ -46,6 +47,16 @@ static void find_variables(struct kr_expression *expression) {
     }
 }
 
+/* muParser's sentence, as a part of ours. */
+static char *message_of(muParserHandle_t parser) {
+    char *message = kr_text_copy(mupGetErrorMsg(parser));
+    size_t length = strlen(message);
+    *message = (char)tolower((unsigned char)*message);
+    if (length && message[length - 1] == '.')
+        message[length - 1] = 0;
+    return message;
+}
+
 /* Compile; a sentence about what is wrong, NULL if nothing is. */
 static char *compile(struct kr_expression *expression, const char *text) {
     int values = 0;
@@ -57,7 +68,7 @@ static char *compile(struct kr_expression *expression, const char *text) {
     if (!mupError(expression->parser))
         mupEvalMulti(expression->parser, &values); /* compiles: muParser does it at first use */
     if (mupError(expression->parser))
-        return kr_text("%s", mupGetErrorMsg(expression->parser));
+        return message_of(expression->parser);
     if (values != 1)
         return kr_text("%d values separated by commas, where one is wanted", values);
     find_variables(expression);
