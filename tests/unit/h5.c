@@ -133,22 +133,31 @@ static void test_names(void **state) {
     assert_int_equal(kr_memory_outstanding(), 0);
 }
 
+/** Another program reads the results of a running one. */
+static void look_at_times(void *unused) {
+    (void)unused;
+    execl("/proc/self/exe", "h5", path, (char *)NULL);
+}
+
+static int be_the_other_program(const char *file_name) {
+    struct kr_h5 *file = kr_h5_open(file_name, "kirsch run", 1);
+    double *times = kr_h5_read_double(file, "/crack/bond_time", 6, 0);
+    puts(memcmp(times, numbers, sizeof numbers) ? "changed" : "as written");
+    return 0;
+}
+
 /** A results file is readable while it is being written, up to its last flush; it can be resumed,
  *  cut back and extended. */
 static void test_grows(void **state) {
     const int32_t pair[4] = {1, 2, 3, 4}, more[2] = {5, 6}, wanted[4] = {1, 2, 5, 6};
-    struct kr_h5 *file = kr_h5_start(path, "kirsch run", 1), *other;
+    struct kr_h5 *file = kr_h5_start(path, "kirsch run", 1);
     (void)state;
     kr_h5_extend_int32(file, "/crack/bond", 0, 2, NULL);
     kr_h5_extend_int32(file, "/crack/bond", 2, 2, pair);
     kr_h5_extend_double(file, "/crack/bond_time", 2, 0, numbers);
     kr_h5_extend_double(file, "/crack/bond_time", 4, 0, numbers + 2);
     kr_h5_flush(file);
-    other = kr_h5_open(path, "kirsch run", 1);
-    double *times = kr_h5_read_double(other, "/crack/bond_time", 6, 0);
-    assert_memory_equal(times, numbers, sizeof numbers);
-    kr_free(times);
-    kr_h5_close(other);
+    kr_check_stops(look_at_times, NULL, 0, "as written");
     kr_h5_close(file);
 
     file = kr_h5_resume(path, "kirsch run", 1);
@@ -350,7 +359,9 @@ static void test_says_what_cannot_be_written(void **state) {
     kr_h5_close(kr_h5_open(path, "kirsch old", 1)); /* the older file is as it was */
 }
 
-int main(void) {
+int main(int argc, char **argv) {
+    if (argc > 1)
+        return be_the_other_program(argv[1]);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_round_trip),
         cmocka_unit_test(test_attributes),

@@ -178,6 +178,19 @@ static void test_tip_stays_on_its_branch(void **state) {
     finish(r, &track);
 }
 
+/** Sideways by three cells in no time is a hop, though within the horizon: no speed comes of it. */
+static void test_hop_is_no_speed(void **state) {
+    const double end[2] = {20e-3, 10e-3}, from[2] = {20.05e-3, 10.3e-3}, to[2] = {38e-3, 10.3e-3};
+    struct kr_record *r = notched();
+    struct kr_track track;
+    (void)state;
+    crack(r, notch, end, 1e-6, 400, 0);
+    crack(r, from, to, 46.1e-6, 400, 0);
+    track = follow(r);
+    kr_check_near(track.top_speed, 400, 1.1 * spacing / (WINDOW * step));
+    finish(r, &track);
+}
+
 static void test_no_damage(void **state) {
     struct kr_record *r = plate(-1, 0, 0);
     struct kr_track track = follow(r);
@@ -213,6 +226,7 @@ static void test_everything_at_once(void **state) {
     assert_int_equal(track.count, 1);
     assert_true(isnan(track.mean_speed));
     assert_false(kr_branches_count(r).countable);
+    assert_int_equal(kr_branches_count(r).branches, 0);
     assert_int_equal(kr_branches_count(r).damaged, r->n);
     finish(r, &track);
 }
@@ -321,7 +335,7 @@ static void test_cracks_apart(void **state) {
     struct kr_record *r = notched();
     (void)state;
     crack(r, notch, end, 1e-6, 500, 0);
-    crack(r, a, b, 20e-6, 500, 0);
+    crack(r, a, b, 90e-6, 500, 0); /* later than the other's end */
     check_branches(r, 2, 2);
 }
 
@@ -431,6 +445,7 @@ int main(void) {
         cmocka_unit_test(test_each_direction),
         cmocka_unit_test(test_box_sees_its_branch_alone),
         cmocka_unit_test(test_tip_stays_on_its_branch),
+        cmocka_unit_test(test_hop_is_no_speed),
         cmocka_unit_test(test_no_damage),
         cmocka_unit_test(test_precrack_that_never_grew),
         cmocka_unit_test(test_everything_at_once),
