@@ -135,6 +135,16 @@ static const struct row {
      "case.yaml:30:11: track.window: found '99999999999999999999', expected a whole number; it is "
      "too large\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_integer_as_a_list", "track:", "track:\n  window: [3]", NULL, NULL,
+     "case.yaml:30:12: track.window: found a list of 1, expected a whole number\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_integer_left_empty", "track:", "track:\n  window:", NULL, NULL,
+     "case.yaml:30:3: track.window: found nothing, expected a whole number\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_faults_in_the_order_of_lines", "10 us}\nno_fail: [top]", "10}\nno_fail: top", NULL, NULL,
+     "case.yaml:25:53: loads.1.ramp: found '10', expected a time with its unit, such as '10 us'\n"
+     "case.yaml:26:10: no_fail: found 'top', expected a list of texts\n"
+     "kirsch: 2 faults in case.yaml; nothing was done\n"},
     {"deck_integer_out_of_range", "track:", "track:\n  window: 0", NULL, NULL,
      "case.yaml:30:11: track.window: found '0', expected at least 1\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
