@@ -104,7 +104,7 @@ $(BUILD)/tests/%: tests/%.c tests/test.h $(BUILD)/libkirsch.a
 # ---- running --------------------------------------------------------------------------------
 demo: deps
 	@$(MAKE) --no-print-directory all
-	@$(BUILD)/kirsch cases/demo/case.yaml $(if $(FULL),--variant full --output out/demo-full)
+	@$(BUILD)/kirsch cases/demo/case.yaml $(if $(FULL),--variant full)
 
 test: deps
 	@$(MAKE) --no-print-directory all $(tests)
