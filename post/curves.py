@@ -3,7 +3,7 @@
 import numpy as np
 
 from maps import outline_holes, paint, panels, save, show
-from results import Fault, read_csv
+from results import Nothing, read_csv
 from style import COLOURS, DAMAGE, box_label, open_axes, plt
 
 SMOOTH = 15  # moves of the tip
@@ -13,7 +13,7 @@ def tips_by_box(case):
     """List of (box, columns of tips.csv in mm and us)."""
     tips = read_csv(case.path("tips.csv"))
     if not len(tips["box"]):
-        raise Fault("there is no crack tip in %s" % case.path("tips.csv"))
+        raise Nothing("there is no crack tip in %s" % case.path("tips.csv"))
     result = []
     for box in np.unique(tips["box"]):
         rows = tips["box"] == box
@@ -34,9 +34,9 @@ def holes_on_path(case, tips):
 def smooth(values):
     """Moving mean over the values there are; the tip moves by whole cells, so they scatter."""
     known = np.isfinite(values)
-    window = np.ones(SMOOTH)
-    total = np.convolve(np.where(known, values, 0), window, "same")
-    count = np.convolve(known.astype(float), window, "same")
+    window, middle = np.ones(SMOOTH), slice(SMOOTH // 2, SMOOTH // 2 + len(values))
+    total = np.convolve(np.where(known, values, 0), window)[middle]
+    count = np.convolve(known.astype(float), window)[middle]
     return np.where(known, total / np.maximum(count, 1), np.nan)
 
 

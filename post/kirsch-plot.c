@@ -79,7 +79,9 @@ int main(int argc, char **argv) {
     deck = kr_case_open(&arguments, &c);
     if (!arguments.explain)
         hand_over(&c, &arguments);
-    kr_say("would draw into %s", kr_case_file(&c, "pictures"));
+    kr_say("would draw into %s/pictures", c.folder);
     kr_deck_close(deck);
+    kr_free(arguments.set);
+    kr_free(arguments.left);
     return KR_EXIT_OK;
 }
