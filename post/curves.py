@@ -40,10 +40,11 @@ def smooth(values):
     return np.where(known, total / np.maximum(count, 1), np.nan)
 
 
-def broken(x, values, tip, jump):
-    """The curve with a gap where the tip moved by more than `jump` at once."""
-    after = np.flatnonzero(np.hypot(np.diff(tip["x"]), np.diff(tip["y"])) > jump) + 1
-    return np.insert(x, after, np.nan), np.insert(values, after, np.nan)
+def pieces(tip, jump):
+    """Slices of the tip's way between moves of more than `jump` at once."""
+    moved = np.hypot(np.diff(tip["x"]), np.diff(tip["y"]))
+    ends = [0, *(np.flatnonzero(moved > jump) + 1), len(tip["x"])]
+    return [slice(a, b) for a, b in zip(ends[:-1], ends[1:])]
 
 
 def speed(case):
@@ -61,9 +62,12 @@ def speed(case):
     jump = 1e3 * case.run().attrs["horizon"]
     for box, t in tips:
         colour = COLOURS[(box - 1) % len(COLOURS)]
-        over.plot(*broken(t["x"], t["speed"], t, jump), color=colour, linewidth=0.4, alpha=0.45)
-        over.plot(*broken(t["x"], smooth(t["speed"]), t, jump), color=colour, linewidth=1.4,
-                  label=box_label(box, tips))
+        label = box_label(box, tips)
+        for some in pieces(t, jump):
+            x, values = t["x"][some], t["speed"][some]
+            over.plot(x, values, color=colour, linewidth=0.4, alpha=0.45)
+            over.plot(x, smooth(values), color=colour, linewidth=1.4, label=label)
+            label = None
     highest = max(np.nanmax(np.append(t["speed"], 0)) for _, t in tips)
     over.set_ylim(0, max(1, 1.08 * highest))
     over.set_ylabel("crack speed / Rayleigh speed")
