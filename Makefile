@@ -14,6 +14,7 @@
 # Settings: CC, CFLAGS, PREFIX, V=1 (show commands), SANITIZE=1 (address and undefined behaviour).
 # Sources are found by wildcard: a new file needs no change here. A file named kirsch-*.c is a program.
 
+MAKEFLAGS += --no-builtin-rules
 BUILD    ?= build
 PREFIX   ?= /usr/local
 CC       ?= cc
@@ -50,7 +51,7 @@ KERNEL_baseline :=
 KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 
-.PHONY: all help demo test bench deps docs format install clean check-deps
+.PHONY: FORCE all help demo test bench deps docs format install clean check-deps
 all: check-deps $(programs) $(scripts)
 
 help:
@@ -62,6 +63,13 @@ check-deps:
 
 deps:
 	@tests/deps install $(PACKAGES)
+
+# The version is compiled into one file only; it is built anew when the version changes.
+$(BUILD)/solver/base/provenance.o: $(BUILD)/version
+$(BUILD)/version: FORCE
+	@mkdir -p $(@D)
+	@echo '$(VERSION)' | cmp -s - $@ || echo '$(VERSION)' > $@
+FORCE:
 
 # ---- building -------------------------------------------------------------------------------
 $(BUILD)/libkirsch.a: $(library_o) $(kernel_o)
@@ -101,8 +109,6 @@ demo: deps
 test: deps
 	@$(MAKE) --no-print-directory all $(tests)
 	@BUILD=$(BUILD) ONLY='$(ONLY)' tests/run
-
-.PHONY: $(tests:%=run-%)
 
 bench: deps
 	@$(MAKE) --no-print-directory all

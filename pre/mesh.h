@@ -13,20 +13,20 @@
 struct kr_mesh_group {
     char *name;
     int dim;
-    int tag;         /* physical tag in the file */
+    int tag; /* physical tag in the file */
     size_t count;
-    size_t *member;  /* (count) indices of cells or edges, ascending */
+    size_t *member; /* (count) indices of cells or edges, ascending */
 };
 
 struct kr_mesh {
     size_t n_points;
-    double *point;         /* (n_points x 3) m */
+    double *point; /* (n_points x 3) m */
     size_t n_cells;
-    size_t *first;         /* (n_cells + 1) where the vertices of a cell begin in `vertex` */
-    size_t *vertex;        /* indices of points, counter-clockwise */
-    int64_t *cell_tag;     /* (n_cells) number of the cell in its file */
+    size_t *first;     /* (n_cells + 1) where the vertices of a cell begin in `vertex` */
+    size_t *vertex;    /* indices of points, counter-clockwise */
+    int64_t *cell_tag; /* (n_cells) number of the cell in its file */
     size_t n_edges;
-    size_t *edge;          /* (n_edges x 2) indices of points */
+    size_t *edge; /* (n_edges x 2) indices of points */
     size_t n_groups;
     struct kr_mesh_group *group;
 };

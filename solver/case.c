@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 
 #define AT(field) offsetof(struct kr_case, field)
 #define POSITIVE .least = 0, .most = INFINITY, .exclusive = 1
@@ -53,7 +54,7 @@ static const struct kr_deck_key geometry_keys[] = {
 };
 
 static const struct kr_deck_key mesh_keys[] = {
-    {"grid", KR_DECK_CHOICE, AT(grid), .words = "near-boundary uniform",
+    {"grid", KR_DECK_CHOICE, AT(grid), .words = KR_GRID_WORDS,
      .fallback = "near-boundary",
      .text = "`near-boundary`: a square lattice, cut out around each hole and filled there with "
              "cells that follow the rim; `uniform`: the lattice alone, with jagged holes."},
@@ -79,15 +80,15 @@ static const struct kr_deck_key set_keys[] = {
 static const struct kr_deck_key nodes_keys[] = {
     {"horizon", NUMBER_OF(AT(horizon), "m"), POSITIVE,
      .text = "Reach of the bonds; 3 to 6 spacings, at least 2."},
-    {"partial_volume", KR_DECK_CHOICE, AT(partial_volume), .words = "hhb none", .fallback = "hhb",
+    {"partial_volume", KR_DECK_CHOICE, AT(partial_volume), .words = KR_PARTIAL_VOLUME_WORDS, .fallback = "hhb",
      .text = "Share of a cell that counts where the horizon cuts it: `hhb`, linear over the "
              "half width of the cell, the mean of both ends of a bond; `none`: all or nothing."},
-    {"surface_correction", KR_DECK_CHOICE, AT(surface_correction), .words = "energy none",
+    {"surface_correction", KR_DECK_CHOICE, AT(surface_correction), .words = KR_SURFACE_WORDS,
      .fallback = "energy",
      .text = "`energy`: bonds near a surface are stiffened until the energy of a homogeneous "
              "deformation is right there too; `none`."},
     {"surface_deformation", KR_DECK_CHOICE, AT(surface_deformation),
-     .words = "uniaxial-y uniaxial-x isotropic mean-over-axes", .fallback = "uniaxial-y",
+     .words = KR_DEFORMATION_WORDS, .fallback = "uniaxial-y",
      .text = "The homogeneous deformation of the energy correction; take the direction of the "
              "load."},
     {"sets", LIST_OF(KR_DECK_MAP, struct kr_case_set, set_keys), .offset = AT(sets),
@@ -99,7 +100,7 @@ static const struct kr_deck_key nodes_keys[] = {
 static const struct kr_deck_key material_keys[] = {
     {"law", KR_DECK_TEXT, AT(law), .fallback = "pmb",
      .text = "Material law; `pmb`: prototype microelastic brittle, with a constant micromodulus."},
-    {"model", KR_DECK_CHOICE, AT(model), .words = "plane-stress plane-strain",
+    {"model", KR_DECK_CHOICE, AT(model), .words = KR_MODEL_WORDS,
      .text = "Thin or thick plate. Bonds fix Poisson's ratio: 1/3 in plane stress, 1/4 in plane "
              "strain."},
     {"youngs_modulus", NUMBER_OF(AT(youngs_modulus), "Pa"), POSITIVE, .text = "Young's modulus."},
@@ -202,3 +203,14 @@ const struct kr_deck_key kr_case_keys[] = {
     {"track", KR_DECK_SECTION, .keys = track_keys, .text = "How kirsch-track follows cracks."},
     {NULL},
 };
+
+void kr_case_word(const char *words, int k, char word[32]) {
+    size_t length;
+    for (; k > 0; k--)
+        words += strcspn(words, " ") + 1;
+    length = strcspn(words, " ");
+    if (length > 31)
+        length = 31;
+    memcpy(word, words, length);
+    word[length] = 0;
+}

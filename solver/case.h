@@ -8,6 +8,12 @@
 
 #include "base/deck.h"
 
+/* Choices of the deck and their words, in one order. */
+#define KR_GRID_WORDS "near-boundary uniform"
+#define KR_PARTIAL_VOLUME_WORDS "hhb none"
+#define KR_SURFACE_WORDS "energy none"
+#define KR_DEFORMATION_WORDS "uniaxial-y uniaxial-x isotropic mean-over-axes"
+#define KR_MODEL_WORDS "plane-stress plane-strain"
 enum kr_grid { KR_GRID_NEAR_BOUNDARY, KR_GRID_UNIFORM };
 enum kr_partial_volume { KR_PARTIAL_VOLUME_HHB, KR_PARTIAL_VOLUME_NONE };
 enum kr_surface_correction { KR_SURFACE_ENERGY, KR_SURFACE_NONE };
@@ -128,6 +134,9 @@ void kr_case_warn(struct kr_deck *deck, const struct kr_case *c);
 /** Open the deck, read and check it whole; faults stop (exit 2). With `check` it says that there
  *  are none and exits 0. The folder is made, unless the case is only to be explained. */
 struct kr_deck *kr_case_open(const struct kr_case_arguments *arguments, struct kr_case *out);
+
+/** The k-th of some words, cut to 31 letters: kr_case_word(KR_MODEL_WORDS, c->model, word). */
+void kr_case_word(const char *words, int k, char word[32]);
 
 /** Path of a file in the case's folder, owned by the caller: kr_case_file(c, "plate.msh"). */
 char *kr_case_file(const struct kr_case *c, const char *name);

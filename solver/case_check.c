@@ -4,6 +4,7 @@
  * but possible is a warning.
  */
 #include "base/error.h"
+#include "material/material.h"
 #include "case.h"
 
 #include <float.h>
@@ -126,32 +127,7 @@ static void check_set(struct kr_deck *deck, const struct kr_case_set *set) {
                       "found '%.40s', expected the name of a boundary, such as 'top'", set->of);
 }
 
-static const struct kr_case_set *set_named(const struct kr_case *c, const char *name) {
-    const struct kr_case_set *sets = c->sets.item;
-    for (size_t i = 0; i < c->sets.count; i++)
-        if (!strcmp(sets[i].name, name))
-            return &sets[i];
-    return NULL;
-}
-
-/* A set that is referred to must be there. `place` is where it is named. */
-static void check_reference(struct kr_deck *deck, const struct kr_case *c,
-                            const char *const *place) {
-    const struct kr_case_set *sets = c->sets.item;
-    int unread = kr_deck_given(deck, &c->sets) && !c->sets.given; /* a fault of the reader */
-    if (!*place || unread || set_named(c, *place))
-        return;
-    char known[256] = "";
-    for (size_t i = 0; i < c->sets.count; i++) {
-        size_t used = strlen(known);
-        snprintf(known + used, sizeof known - used, "%s'%.40s'", i ? ", " : "", sets[i].name);
-    }
-    kr_deck_fault(deck, place, "no set is called '%.40s'; nodes.sets has %s", *place,
-                  *known ? known : "none");
-}
-
-static void check_load(struct kr_deck *deck, const struct kr_case *c,
-                       const struct kr_case_load *load) {
+static void check_load(struct kr_deck *deck, const struct kr_case_load *load) {
     const struct kr_deck_formula *kinds[] = {load->displacement, load->velocity, load->traction,
                                              load->body_force};
     const struct kr_deck_formula *first = NULL;
@@ -171,19 +147,15 @@ static void check_load(struct kr_deck *deck, const struct kr_case *c,
                       "body_force");
     else if (first[0].is_free && (first[1].is_free || !first[1].text))
         kr_deck_fault(deck, first, "all components are free; the load does nothing");
-    check_reference(deck, c, &load->set);
 }
 
 static void check_sets_and_loads(struct kr_deck *deck, const struct kr_case *c) {
     const struct kr_case_set *sets = c->sets.item;
     const struct kr_case_load *loads = c->loads.item;
-    const char *const *names = c->no_fail.item;
     for (size_t i = 0; i < c->sets.count; i++)
         check_set(deck, &sets[i]);
     for (size_t i = 0; i < c->loads.count; i++)
-        check_load(deck, c, &loads[i]);
-    for (size_t i = 0; i < c->no_fail.count; i++)
-        check_reference(deck, c, &names[i]);
+        check_load(deck, &loads[i]);
 }
 
 static void check_cracks(struct kr_deck *deck, const struct kr_case *c) {
@@ -226,6 +198,17 @@ static void check_times(struct kr_deck *deck, const struct kr_case *c) {
             kr_deck_fault(deck, &at[i], "%g s is after end_time, %g s", at[i], c->end_time);
 }
 
+static void check_law(struct kr_deck *deck, const struct kr_case *c) {
+    char known[256] = "";
+    if (!c->law || kr_law_named(c->law))
+        return;
+    for (size_t k = 0; k < kr_laws_count; k++) {
+        size_t used = strlen(known);
+        snprintf(known + used, sizeof known - used, "%s%s", k ? ", " : "", kr_laws[k]->name);
+    }
+    kr_deck_fault(deck, &c->law, "unknown law '%.40s'; there is %s", c->law, known);
+}
+
 void kr_case_check(struct kr_deck *deck, const struct kr_case *c) {
     const struct kr_case_box *boxes = c->boxes.item;
     check_mesh(deck, c);
@@ -237,8 +220,7 @@ void kr_case_check(struct kr_deck *deck, const struct kr_case *c) {
     for (size_t i = 0; i < c->boxes.count; i++)
         if (kr_deck_given(deck, boxes[i].lower) && kr_deck_given(deck, boxes[i].upper))
             check_box(deck, boxes[i].lower, boxes[i].upper);
-    if (c->law && strcmp(c->law, "pmb"))
-        kr_deck_fault(deck, &c->law, "unknown law '%.40s'; there is pmb", c->law);
+    check_law(deck, c);
 }
 
 static int is_used(const struct kr_case *c, const char *set) {

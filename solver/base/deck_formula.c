@@ -28,16 +28,11 @@ static char *fault_of(const char *text) {
     return why;
 }
 
-/* Whether a unit may begin at text + i: after a blank, a digit or a bracket, but not in the
-   exponent of a number (1e-3) nor within a word. */
+/* Whether a unit may begin at text + i: a letter after a blank, a digit or a bracket. */
 static int may_begin_unit(const char *text, size_t i) {
     unsigned char c = (unsigned char)text[i], before = (unsigned char)text[i - 1];
-    if (!isalpha(c) && c < 0x80)
-        return 0;
-    if ((c == 'e' || c == 'E') && (isdigit(before) || before == '.') &&
-        (isdigit((unsigned char)text[i + 1]) || strchr("+-", text[i + 1])))
-        return 0;
-    return isspace(before) || isdigit(before) || before == ')' || before == '.';
+    return (isalpha(c) || c >= 0x80) &&
+           (isspace(before) || isdigit(before) || before == ')' || before == '.');
 }
 
 /* Split off the unit, in place. Returns its factor; 0 where no split works, with a sentence. */

@@ -111,8 +111,7 @@ static char *belongs(const struct kr_deck_key *all, const char *name, int near) 
 void kr_deck_unknown(struct kr_deck *deck, const struct kr_deck_key *keys, const char *name,
                      struct kr_deck_mark at, const char *path) {
     const struct kr_deck_key *near = kr_deck_nearest(keys, name);
-    int same = near && !kr_deck_distance(name, near->name); /* Horizon, time-step */
-    char *cure = same ? NULL : belongs(deck->keys, name, 0);
+    char *cure = belongs(deck->keys, name, 0);
     if (!cure && near)
         cure = kr_text("did you mean '%s'?", near->name);
     if (!cure)

@@ -34,6 +34,12 @@ static struct kr_deck_node **item_at(const struct change *change, const struct k
     return NULL;
 }
 
+static void no_section(const struct change *change, const struct kr_deck_node *node,
+                       const char *part) {
+    kr_deck_complain(change->deck, change->at, change->dotted,
+                     "'%s' lies within '%s', which is a value and no section", part, node->text);
+}
+
 /* The node below `node` that a part of the key names; sections that are not there are made. */
 static struct kr_deck_node *step(const struct change *change, struct kr_deck_node *node,
                                  const char *part) {
@@ -42,9 +48,7 @@ static struct kr_deck_node *step(const struct change *change, struct kr_deck_nod
         return item ? *item : NULL;
     }
     if (node->kind == KR_DECK_SCALAR && *node->text) {
-        kr_deck_complain(change->deck, change->at, change->dotted,
-                         "'%s' lies within '%s', which is a value and no section", part,
-                         node->text);
+        no_section(change, node, part);
         return NULL;
     }
     node->kind = KR_DECK_MAPPING;
@@ -94,9 +98,7 @@ static void put(const struct change *change, struct kr_deck_node *node, const ch
         else
             kr_deck_node_free(value);
     } else if (node->kind == KR_DECK_SCALAR && *node->text) {
-        kr_deck_complain(change->deck, change->at, change->dotted,
-                         "'%s' lies within '%s', which is a value and no section", part,
-                         node->text);
+        no_section(change, node, part);
         kr_deck_node_free(value);
     } else {
         node->kind = KR_DECK_MAPPING;

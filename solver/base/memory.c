@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
  * Checked, counted allocation. The size stands in a 64-byte header before the array, so that the
- * count of bytes is exact and the array itself is aligned for any vector width. Not called from
- * parallel regions, so the counters need no lock.
+ * count of bytes is exact and the array itself is aligned for any vector width. The counters are
+ * atomic, for set-up work may allocate in parallel regions.
  */
 #include "base/memory.h"
 
@@ -16,7 +16,7 @@
 
 enum { HEADER = 64 };
 
-static size_t outstanding, bytes_now, bytes_peak;
+static _Atomic size_t outstanding, bytes_now, bytes_peak;
 
 static size_t *header_of(void *array) {
     return (size_t *)((char *)array - HEADER);

@@ -67,9 +67,8 @@ static ut_unit *parse(const char *text) {
 
 /* Slope of a conversion through the origin; 0 for any other kind. */
 static double slope(cv_converter *converter) {
-    double zero = cv_convert_double(converter, 0), one = cv_convert_double(converter, 1);
-    double two = cv_convert_double(converter, 2);
-    int straight = zero == 0 && isfinite(one) && fabs(two - 2 * one) <= 1e-12 * fabs(two);
+    double one = cv_convert_double(converter, 1), two = cv_convert_double(converter, 2);
+    int straight = isfinite(one) && fabs(two - 2 * one) <= 1e-12 * fabs(two);
     return straight ? one : 0;
 }
 

@@ -5,7 +5,7 @@
  */
 #include "test.h"
 
-#include "base/deck.h"
+#include "base/deck_private.h"
 #include "base/unit.h"
 
 struct box {
@@ -60,7 +60,7 @@ static const struct kr_deck_key keys[] = {
 };
 
 static const char full[] = "# a comment\n"
-                           "title: 'two \"quoted\" words'\n"
+                           "title: \"two \\\"quoted\\\" words,\\ntwo lines\"\n"
                            "seed: 20230101\n"
                            "fast: false\n"
                            "part:\n"
@@ -104,7 +104,7 @@ static void deck_reads_every_type(void **state) {
     struct kr_deck *deck = open_text(full, NULL, NULL);
     kr_deck_read(deck, keys, &p);
     kr_deck_finish(deck);
-    assert_string_equal(p.title, "two \"quoted\" words");
+    assert_string_equal(p.title, "two \"quoted\" words,\ntwo lines");
     assert_int_equal(p.seed, 20230101);
     assert_int_equal(p.fast, 0);
     kr_check_near(p.width, 0.05, 0);
@@ -276,7 +276,7 @@ static void deck_resolves_to_text(void **state) {
     kr_deck_read(deck, keys, &p);
     kr_deck_finish(deck);
     char *text = kr_deck_resolved(deck, NULL);
-    assert_string_equal(text, "title = \"two \\\"quoted\\\" words\"\n"
+    assert_string_equal(text, "title = \"two \\\"quoted\\\" words,\\ntwo lines\"\n"
                               "empty = none\n"
                               "seed = 20230101\n"
                               "fast = false\n"
@@ -345,6 +345,16 @@ static void deck_collects_later_faults(void **state) {
     close_all(deck);
 }
 
+static void deck_distance_counts_letters(void **state) {
+    (void)state;
+    assert_int_equal(kr_deck_distance("horizon", "horizon"), 0);
+    assert_int_equal(kr_deck_distance("End-Time", "end_time"), 0);
+    assert_int_equal(kr_deck_distance("horizn", "horizon"), 1);
+    assert_int_equal(kr_deck_distance("spaceing", "spacing"), 1);
+    assert_int_equal(kr_deck_distance("kitten", "sitting"), 3);
+    assert_int_equal(kr_deck_distance("", "abc"), 3);
+}
+
 static void deck_reference_names_every_key(void **state) {
     (void)state;
     char *text = NULL;
@@ -380,6 +390,7 @@ int main(void) {
         cmocka_unit_test(deck_resolves_to_text),
         cmocka_unit_test(deck_resolves_equal_decks_equally),
         cmocka_unit_test(deck_collects_later_faults),
+        cmocka_unit_test(deck_distance_counts_letters),
         cmocka_unit_test(deck_reference_names_every_key),
     };
     int descriptor = mkstemp(file_name);

@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Children by fork and execv. The time limit is alarm(), which survives execv: the kernel keeps
+ * it, even if the child hangs in a loop of its own.
+ */
+#include "child.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+/** The exit status by which a child that could not become the program says so. */
+enum { NOT_STARTED = 127 };
+
+static FILE *file_in_memory(void) {
+    int descriptor = memfd_create("kirsch", MFD_CLOEXEC);
+    FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "w+");
+    if (!file)
+        kr_stop(KR_EXIT_MEMORY, "no file in memory can be made: %s", strerror(errno));
+    return file;
+}
+
+double kr_child_clock(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+void kr_child_prepare(struct kr_child *child) {
+    *child = (struct kr_child){0, file_in_memory(), file_in_memory(), file_in_memory(), 0};
+}
+
+/** In the child: only calls that are safe between fork and exec. */
+_Noreturn static void become(const char *program, const int file[3], unsigned seconds,
+                             pid_t parent) {
+    char *arguments[] = {(char *)(uintptr_t)program, NULL};
+    sigset_t none;
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, NULL);
+    signal(SIGALRM, SIG_DFL);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent)
+        _exit(NOT_STARTED); /* the parent ended before it could be watched */
+    alarm(seconds);
+    for (int k = 0; k < 3; k++)
+        if (dup2(file[k], k) < 0)
+            _exit(NOT_STARTED);
+    execv(program, arguments);
+    _exit(NOT_STARTED);
+}
+
+void kr_child_start(struct kr_child *child, const char *program, unsigned seconds) {
+    int file[3] = {fileno(child->in), fileno(child->out), fileno(child->said)};
+    pid_t parent = getpid();
+    fflush(NULL);
+    rewind(child->in);
+    /* dup2 onto itself would keep the close-on-exec mark; files in memory stand above 0, 1, 2
+     * unless this program was started with those closed. */
+    for (int k = 0; k < 3; k++)
+        if (file[k] < 3)
+            kr_stop(KR_EXIT_LIBRARY, "standard input, output or error is closed");
+    child->started = kr_child_clock();
+    child->pid = fork();
+    if (child->pid < 0)
+        kr_stop(KR_EXIT_LIBRARY, "%s cannot be started: %s", program, strerror(errno));
+    if (child->pid == 0)
+        become(program, file, seconds, parent);
+}
+
+pid_t kr_child_wait(int *status) {
+    pid_t pid;
+    do
+        pid = waitpid(-1, status, 0);
+    while (pid < 0 && errno == EINTR);
+    if (pid < 0)
+        kr_stop(KR_EXIT_LIBRARY, "waiting for a child failed: %s", strerror(errno));
+    return pid;
+}
+
+char *kr_child_trouble(int status, unsigned seconds) {
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
+        return kr_text("it was not done after %u s", seconds);
+    if (WIFSIGNALED(status))
+        return kr_text("it crashed (%s)", strsignal(WTERMSIG(status)));
+    if (WIFEXITED(status) && WEXITSTATUS(status) == NOT_STARTED)
+        return kr_text("it could not be started");
+    if (WIFEXITED(status) && WEXITSTATUS(status) != 0)
+        return kr_text("it ended with exit code %d", WEXITSTATUS(status));
+    return NULL;
+}
+
+char *kr_child_line(struct kr_child *child, const char *word) {
+    char *line = NULL, *found = NULL;
+    size_t room = 0;
+    ssize_t length;
+    rewind(child->said);
+    while (!found && (length = getline(&line, &room, child->said)) >= 0)
+        if (strstr(line, word)) {
+            line[strcspn(line, "\n")] = 0;
+            found = kr_text_copy(line);
+        }
+    free(line);
+    return found;
+}
+
+void kr_child_close(struct kr_child *child) {
+    fclose(child->in);
+    fclose(child->out);
+    fclose(child->said);
+}
+
+char *kr_child_beside(const char *name) {
+    char self[4096];
+    ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
+    if (length <= 0)
+        kr_stop(KR_EXIT_LIBRARY, "/proc/self/exe cannot be read: %s", strerror(errno));
+    self[length] = 0;
+    *strrchr(self, '/') = 0;
+    char *path = kr_text("%s/%s", self, name);
+    if (access(path, X_OK))
+        kr_stop(KR_EXIT_LIBRARY, "the program %s is missing: it should stand at %s", name, path);
+    return path;
+}

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Run a program as a child without a shell, its three standard files in memory: the parent never
+ * waits for a pipe, and nothing is left behind whatever happens.
+ */
+#ifndef KR_CHILD_H
+#define KR_CHILD_H
+
+#include <stdio.h>
+#include <sys/types.h>
+
+struct kr_child {
+    pid_t pid;
+    FILE *in, *out, *said; /* its standard input, output and error, seen from here */
+    double started;        /* s */
+};
+
+/** The three files, to write the input; the child is not yet running. Stops (exit 6) without
+ *  memory for them. */
+void kr_child_prepare(struct kr_child *child);
+
+/** Start `program` on what was written. After `seconds` the system ends it by SIGALRM; it also
+ *  ends with its parent. Stops (exit 5) where no process can be made. */
+void kr_child_start(struct kr_child *child, const char *program, unsigned seconds);
+
+/** Wait for any child; returns its pid and its status as of waitpid. */
+pid_t kr_child_wait(int *status);
+
+/** What a status other than success means, in words owned by the caller; NULL for success. */
+char *kr_child_trouble(int status, unsigned seconds);
+
+/** First line of what the child said that holds `word`, owned by the caller; NULL if none. */
+char *kr_child_line(struct kr_child *child, const char *word);
+
+/** Close the files. */
+void kr_child_close(struct kr_child *child);
+
+/** Path of a program in the same folder as this one, owned by the caller. Stops (exit 5) where
+ *  there is none. */
+char *kr_child_beside(const char *name);
+
+/** Monotonic time [s]. */
+double kr_child_clock(void);
+
+#endif

@@ -1,0 +1,196 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * kirsch-gmsh: fill one region with quadrilaterals by gmsh. kirsch-mesh runs it, once a region and
+ * in a process of its own, because gmsh 4.8 may abort, hang or return a wrong mesh without a word.
+ *
+ * It reads a request on standard input, writes the mesh on standard output and all that gmsh says
+ * on standard error; both are text and documented in gmsh.h. Every boundary line is transfinite:
+ * gmsh may put no point of its own on the boundary. It exits 0 when it has written a mesh; whether
+ * the mesh is right, kirsch-mesh finds out for itself.
+ */
+#include <gmshc.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+/** What a request asks for, its loops aside. */
+struct order {
+    int algorithm;     /* Mesh.Algorithm */
+    int recombination; /* Mesh.RecombinationAlgorithm */
+    double size;       /* length of a side, in spacings */
+    int n_loops;
+};
+
+_Noreturn static void fail(const char *sentence) {
+    fprintf(stderr, "Error   : %s\n", sentence);
+    exit(1);
+}
+
+/** Every call of gmsh goes through here: its last argument is `&trouble`. */
+static int trouble;
+
+static void called(const char *what) {
+    if (trouble) {
+        fprintf(stderr, "Error   : %s ended with %d\n", what, trouble);
+        exit(1);
+    }
+}
+
+static void *room(size_t count, size_t size) {
+    void *array = calloc(count ? count : 1, size);
+    if (!array)
+        fail("no memory");
+    return array;
+}
+
+static void set(const char *option, double value) {
+    gmshOptionSetNumber(option, value, &trouble);
+    called(option);
+}
+
+static void set_options(const struct order *order) {
+    set("General.Terminal", 1);
+    set("General.Verbosity", 2);    /* errors and warnings only */
+    set("General.NumThreads", 1);   /* more differ from run to run */
+    set("General.AbortOnError", 0); /* the log then says what was wrong */
+    set("Mesh.Algorithm", order->algorithm);
+    set("Mesh.RecombinationAlgorithm", order->recombination);
+    set("Mesh.RecombineAll", 1);
+    set("Mesh.CharacteristicLengthMin", order->size);
+    set("Mesh.CharacteristicLengthMax", order->size);
+}
+
+/** Read one closed loop of points and make its lines, each with its number of segments. Points
+ *  and lines share the numbers that follow `*last`. */
+static int read_loop(int *last) {
+    int n, segments, first = *last + 1;
+    double x, y;
+    if (scanf(" loop %d", &n) != 1 || n < 3)
+        fail("bad loop");
+    int *line = room((size_t)n, sizeof *line), *count = room((size_t)n, sizeof *count);
+    for (int k = 0; k < n; k++) {
+        if (scanf("%lf %lf %d", &x, &y, &segments) != 3 || segments < 1)
+            fail("bad point");
+        gmshModelGeoAddPoint(x, y, 0, 0, first + k, &trouble);
+        called("a point");
+        line[k] = first + k;
+        count[k] = segments;
+    }
+    for (int k = 0; k < n; k++) {
+        gmshModelGeoAddLine(first + k, first + (k + 1) % n, first + k, &trouble);
+        called("a line");
+        gmshModelGeoMeshSetTransfiniteCurve(first + k, count[k] + 1, "Progression", 1, &trouble);
+        called("the cells of a line");
+    }
+    *last += n;
+    int loop = gmshModelGeoAddCurveLoop(line, (size_t)n, -1, 0, &trouble);
+    called("a loop");
+    free(line);
+    free(count);
+    return loop;
+}
+
+/** Nodes in the order in which they are written, and the place of each by gmsh's number. */
+struct nodes {
+    size_t count, room;
+    double *place; /* (count x 2) */
+    size_t most, *number;
+};
+
+static void count_nodes(struct nodes *nodes) {
+    size_t *tag, n_coordinates, n_parameters;
+    double *coordinate, *parameter;
+    gmshModelMeshGetNodes(&tag, &nodes->room, &coordinate, &n_coordinates, &parameter,
+                          &n_parameters, -1, -1, 0, 0, &trouble);
+    called("counting the nodes");
+    for (size_t i = 0; i < nodes->room; i++)
+        nodes->most = tag[i] > nodes->most ? tag[i] : nodes->most;
+    gmshFree(tag);
+    gmshFree(coordinate);
+    gmshFree(parameter);
+}
+
+/** Add the nodes of one point (dim 0), inner nodes of one line (1) or of the surface (2). */
+static void add_nodes(struct nodes *nodes, int dim, int which) {
+    size_t *tag, n, n_coordinates, n_parameters;
+    double *coordinate, *parameter;
+    gmshModelMeshGetNodes(&tag, &n, &coordinate, &n_coordinates, &parameter, &n_parameters, dim,
+                          which, 0, 0, &trouble);
+    called("reading the nodes");
+    for (size_t i = 0; i < n; i++) {
+        if (nodes->count == nodes->room || tag[i] > nodes->most)
+            fail("there are more nodes than gmsh said");
+        nodes->place[2 * nodes->count] = coordinate[3 * i];
+        nodes->place[2 * nodes->count + 1] = coordinate[3 * i + 1];
+        nodes->number[tag[i]] = nodes->count++;
+    }
+    gmshFree(tag);
+    gmshFree(coordinate);
+    gmshFree(parameter);
+}
+
+/** Write the mesh; the nodes of the loops come first, each line's in the order of its sense. */
+static void write_mesh(FILE *file, int n_lines) {
+    struct nodes nodes = {0, 0, NULL, 0, NULL};
+    count_nodes(&nodes);
+    nodes.place = room(2 * nodes.room, sizeof *nodes.place);
+    nodes.number = room(nodes.most + 1, sizeof *nodes.number);
+    for (int k = 1; k <= n_lines; k++) {
+        add_nodes(&nodes, 0, k);
+        add_nodes(&nodes, 1, k);
+    }
+    add_nodes(&nodes, 2, 1);
+    fprintf(file, "nodes %zu\n", nodes.count);
+    for (size_t i = 0; i < nodes.count; i++)
+        fprintf(file, "%.17g %.17g\n", nodes.place[2 * i], nodes.place[2 * i + 1]);
+    for (int corners = 3; corners <= 4; corners++) {
+        size_t *cell, *vertex, n_cells, n_vertices;
+        gmshModelMeshGetElementsByType(corners == 3 ? 2 : 3, &cell, &n_cells, &vertex, &n_vertices,
+                                       -1, 0, 1, &trouble);
+        called("reading the cells");
+        fprintf(file, "cells %zu\n", n_cells);
+        for (size_t c = 0; c < n_cells; c++) {
+            fprintf(file, "%d", corners);
+            for (int k = 0; k < corners; k++)
+                fprintf(file, " %zu", nodes.number[vertex[(size_t)corners * c + (size_t)k]]);
+            fputc('\n', file);
+        }
+        gmshFree(cell);
+        gmshFree(vertex);
+    }
+    fprintf(file, "end\n");
+    free(nodes.place);
+    free(nodes.number);
+}
+
+int main(void) {
+    struct order order;
+    if (scanf(" region algorithm %d recombination %d size %lf loops %d", &order.algorithm,
+              &order.recombination, &order.size, &order.n_loops) != 4 ||
+        order.n_loops < 1)
+        fail("this program is run by kirsch-mesh; its request is bad");
+    /* gmsh writes what it likes to standard output: the mesh leaves by another way. */
+    FILE *out = fdopen(dup(1), "w");
+    if (!out || dup2(2, 1) < 0)
+        fail("no standard output");
+
+    gmshInitialize(0, NULL, 0, &trouble);
+    called("starting gmsh");
+    set_options(&order);
+    int *loop = room((size_t)order.n_loops, sizeof *loop), last = 0;
+    for (int k = 0; k < order.n_loops; k++)
+        loop[k] = read_loop(&last);
+    gmshModelGeoAddPlaneSurface(loop, (size_t)order.n_loops, 1, &trouble);
+    called("the surface");
+    gmshModelGeoSynchronize(&trouble);
+    called("synchronising");
+    gmshModelMeshGenerate(2, &trouble);
+    called("meshing");
+    write_mesh(out, last);
+    if (fclose(out))
+        fail("the mesh cannot be written");
+    gmshFinalize(&trouble);
+    free(loop);
+    return 0;
+}

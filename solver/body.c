@@ -1,0 +1,164 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Forces and energies of a body: the fast loop in blocks of slices, one a thread, the exact loop
+ * where it is flagged, and what follows from bonds that broke.
+ */
+#include "body.h"
+
+#include "base/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct kr_body *kr_body_create(struct kr_bonds *bonds) {
+    struct kr_body *body = KR_NEW(struct kr_body, 1);
+    *body = (struct kr_body){
+        .bonds = bonds, .kernel = kr_kernel_best(), .dim = bonds->dim, .n = bonds->n};
+    for (int d = 0; d < body->dim; d++) {
+        body->u[d] = kr_bonds_padded(body->n);
+        body->v[d] = kr_bonds_padded(body->n);
+        body->force[d] = kr_bonds_padded(body->n);
+    }
+    body->energy = kr_bonds_padded(body->n);
+    body->flag = KR_NEW(unsigned char, bonds->n_slices);
+    body->by_block = KR_NEW(struct kr_broken_list, (size_t)bonds->n_blocks);
+    return body;
+}
+
+void kr_body_free(struct kr_body *body) {
+    for (int d = 0; d < body->dim; d++) {
+        kr_bonds_padded_free(body->u[d]);
+        kr_bonds_padded_free(body->v[d]);
+        kr_bonds_padded_free(body->force[d]);
+    }
+    kr_bonds_padded_free(body->energy);
+    kr_free(body->flag);
+    for (int k = 0; k < body->bonds->n_blocks; k++)
+        kr_free(body->by_block[k].item);
+    kr_free(body->by_block);
+    kr_free(body->broken.item);
+    kr_free(body);
+}
+
+static struct kr_kernel_work work_of(const struct kr_body *body) {
+    struct kr_kernel_work work = {
+        .bonds = body->bonds, .energy = body->energy, .flag = body->flag};
+    for (int d = 0; d < body->dim; d++) {
+        work.u[d] = body->u[d];
+        work.force[d] = body->force[d];
+    }
+    return work;
+}
+
+static void force_of_block(struct kr_body *body, const struct kr_kernel_work *work, int block,
+                           int may_break) {
+    struct kr_bonds *b = body->bonds;
+    struct kr_broken_list *list = &body->by_block[block];
+    list->count = 0;
+    body->kernel->force(work, b->block[block], b->block[block + 1]);
+    for (size_t slice = b->block[block]; slice < b->block[block + 1]; slice++) {
+        if (!body->flag[slice])
+            continue;
+        kr_exact_force(work, slice);
+        if (may_break)
+            kr_exact_break(b, work, slice, list);
+    }
+}
+
+static int by_pair(const void *p, const void *q) {
+    const struct kr_broken *a = p, *b = q;
+    return a->i != b->i ? (a->i < b->i ? -1 : 1) : (a->j > b->j) - (a->j < b->j);
+}
+
+/* Bring the ends found by all blocks together: each pair once, in order. Rounding may let one end
+ * see the break a step before the other, so both are cleared here. */
+static void gather_broken(struct kr_body *body) {
+    struct kr_broken_list *all = &body->broken;
+    all->count = 0;
+    for (int k = 0; k < body->bonds->n_blocks; k++)
+        for (size_t m = 0; m < body->by_block[k].count; m++) {
+            struct kr_broken one = body->by_block[k].item[m];
+            if (one.i > one.j)
+                one = (struct kr_broken){one.j, one.i, one.weight, one.energy};
+            KR_GROW(all->item, all->count, all->room);
+            all->item[all->count++] = one;
+        }
+    if (!all->count)
+        return;
+    qsort(all->item, all->count, sizeof *all->item, by_pair);
+    size_t kept = 0;
+    for (size_t k = 0; k < all->count; k++)
+        if (!kept || by_pair(&all->item[k], &all->item[kept - 1]))
+            all->item[kept++] = all->item[k];
+    all->count = kept;
+}
+
+static void settle_broken(struct kr_body *body) {
+    struct kr_bonds *b = body->bonds;
+    for (size_t k = 0; k < body->broken.count; k++) {
+        size_t i = (size_t)body->broken.item[k].i, j = (size_t)body->broken.item[k].j;
+        double weight = body->broken.item[k].weight;
+        kr_bonds_clear(b, i, j);
+        kr_bonds_clear(b, j, i);
+        b->lost_volume[i] += weight * b->volume[j];
+        b->lost_volume[j] += weight * b->volume[i];
+    }
+}
+
+void kr_body_force(struct kr_body *body, int may_break) {
+    const struct kr_kernel_work work = work_of(body);
+#pragma omp parallel for schedule(static, 1)
+    for (int block = 0; block < body->bonds->n_blocks; block++)
+        force_of_block(body, &work, block, may_break);
+    if (may_break) {
+        gather_broken(body);
+        settle_broken(body);
+    }
+}
+
+static double energy_of_node(const void *context, size_t i) {
+    const struct kr_body *body = context;
+    return body->energy[i] * body->bonds->volume[i];
+}
+
+double kr_body_energy(struct kr_body *body) {
+    const struct kr_bonds *b = body->bonds;
+    const struct kr_kernel_work work = work_of(body);
+#pragma omp parallel for schedule(static, 1)
+    for (int block = 0; block < b->n_blocks; block++) {
+        body->kernel->energy(&work, b->block[block], b->block[block + 1]);
+        for (size_t slice = b->block[block]; slice < b->block[block + 1]; slice++)
+            if (body->flag[slice])
+                kr_exact_energy(&work, slice);
+    }
+    return kr_body_sum(body->n, energy_of_node, body);
+}
+
+void kr_body_advance(struct kr_body *body, double kick, double drift) {
+    const double push = kick / body->bonds->material.density;
+    for (int d = 0; d < body->dim; d++) {
+        double *restrict u = body->u[d], *restrict v = body->v[d];
+        const double *restrict force = body->force[d];
+#pragma omp parallel for simd schedule(static)
+        for (size_t i = 0; i < body->n; i++) {
+            v[i] += push * force[i];
+            u[i] += drift * v[i];
+        }
+    }
+}
+
+double kr_body_sum(size_t n, double (*term)(const void *context, size_t i), const void *context) {
+    enum { CHUNK = 4096 };
+    size_t chunks = (n + CHUNK - 1) / CHUNK;
+    double *part = KR_NEW(double, chunks), total = 0;
+#pragma omp parallel for schedule(static)
+    for (size_t k = 0; k < chunks; k++) {
+        size_t end = (k + 1) * CHUNK < n ? (k + 1) * CHUNK : n;
+        for (size_t i = k * CHUNK; i < end; i++)
+            part[k] += term(context, i);
+    }
+    for (size_t k = 0; k < chunks; k++)
+        total += part[k];
+    kr_free(part);
+    return total;
+}

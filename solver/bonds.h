@@ -1,0 +1,131 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Bonds: the families of all nodes, their weights, which bonds still live, and the damage.
+ *
+ * The layout is made for the loop over all bonds (kernel.c). Eight consecutive nodes form a slice,
+ * one node a SIMD lane. A slice has rows: a row holds, for each lane i, the bond to node
+ * j = i + offset, if bit i of its mask is set. Nodes stand in rows of the plate, so neighbours of
+ * consecutive nodes are consecutive too, and a row's eight neighbours are one contiguous load.
+ *
+ *   slice of nodes    16 17 18 19 20 21 22 23
+ *   row, offset +501  517 518 ...         524      mask 11111111
+ *   row, offset +1    17 18 ...            24      mask 01111111   (23 is the plate's edge)
+ *
+ * Slices come in two classes. `lattice`: all bonds join lattice nodes of equal volume, so that a
+ * row's bond vector and weight come from a small table (its `kind`). General: bond vectors come from
+ * the positions, 1/|xi| is stored in float32 (and sharpened by a Newton step), and rows at the rim of
+ * the horizon store their weights.
+ *
+ * Each node sums its own family in the order of the rows: the same bits for any number of threads.
+ */
+#ifndef KR_BONDS_H
+#define KR_BONDS_H
+
+#include "fit.h"
+#include "material/material.h"
+#include "nodes.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum { KR_LANES = 8 };
+
+/** Geometry of the lattice bonds of one kind. */
+struct kr_bond_kind {
+    double xi[3];      /* m */
+    double length;     /* |xi|, m */
+    double inverse_square; /* 1/|xi|^2 */
+    double weight;     /* phi */
+    double pull;       /* c phi V / (2 |xi|): times (lambda_i + lambda_j) pull e (xi + eta) */
+    double store;      /* c phi V |xi| / 4:  times (lambda_i + lambda_j) store e^2 */
+};
+
+struct kr_bonds {
+    int dim;
+    size_t n, n_slices, n_rows;
+    size_t count;              /* living bonds at the start, each pair counted from both ends */
+    struct kr_material material;
+    struct kr_fit fit;
+    double flag_above, flag_below; /* e outside of these: the slice takes the exact loop */
+
+    /* per node; padded arrays of kr_bonds_padded */
+    double *x[3];    /* m */
+    double *volume;  /* m^2 */
+    double *factor;  /* lambda */
+    double *family_volume, *lost_volume; /* m^2: of the whole family, and behind broken bonds */
+    unsigned char *no_fail;              /* bonds of this node never break */
+
+    /* per slice */
+    unsigned char *lattice;
+    size_t *first;         /* (n_slices + 1) of its rows */
+    size_t *first_inverse; /* (n_slices + 1) of its 8-tuples in `inverse` */
+    size_t *first_weight;  /* (n_slices + 1) of its 8-tuples in `weight` */
+
+    /* per row */
+    int32_t *offset;
+    uint16_t *kind;  /* lattice: place in `kinds`; general: 1 if it stores weights, else 0 */
+    uint8_t *living; /* mask */
+
+    float *inverse; /* 1/|xi| [1/m], 8 a general row */
+    float *weight;  /* phi, 8 a general row of kind 1 */
+    size_t n_kinds;
+    struct kr_bond_kind *kinds;
+
+    int n_blocks;          /* equal shares of the rows, one a thread */
+    size_t *block;         /* (n_blocks + 1) first slice of each */
+};
+
+/** One bond as seen from node i. */
+struct kr_bond {
+    size_t row;    /* where its bit is */
+    int lane;
+    size_t i, j;
+    double xi[3];  /* m */
+    double length; /* m */
+    double weight; /* phi */
+};
+
+/** Find all families.
+ *
+ *  in  nodes      not kept
+ *  in  material   its horizon [m] is the reach
+ *  in  partial_volume  enum kr_partial_volume
+ *  Stops (exit 2) if a node has no neighbour at all, naming it.
+ */
+struct kr_bonds *kr_bonds_create(const struct kr_nodes *nodes, const struct kr_material *material,
+                                 int partial_volume);
+void kr_bonds_free(struct kr_bonds *bonds);
+
+/** An array of n doubles with room for a whole slice before and behind, all zero, so that rows may
+ *  load past both ends. Free with kr_bonds_padded_free. */
+double *kr_bonds_padded(size_t n);
+void kr_bonds_padded_free(double *array);
+
+/** Cut the bonds that cross the segment from a to b [m] (2D); touching counts.
+ *  count: whether they count in the damage (plates paper eq. 10) or leave the family at once.
+ *  Returns the number of pairs cut. */
+size_t kr_bonds_cut(struct kr_bonds *bonds, const double a[2], const double b[2], int count);
+
+/** Damage of a node, 0 to 1: 1 - sum of mu phi V over sum of phi V; theory.md (9), paper eq. 10. */
+double kr_bonds_damage(const struct kr_bonds *bonds, size_t i);
+
+/** Clear one bond at the end of node i if it lives; returns whether it did. */
+int kr_bonds_clear(struct kr_bonds *bonds, size_t i, size_t j);
+
+/** Visit the living bonds of a slice, row by row: start with kr_bonds_walk, then until it returns 0.
+ *  `bond` is filled anew each time. */
+struct kr_bond_walk {
+    size_t slice, row, weight;
+    int lane;
+};
+struct kr_bond_walk kr_bonds_walk(const struct kr_bonds *bonds, size_t slice);
+int kr_bonds_next(const struct kr_bonds *bonds, struct kr_bond_walk *walk, struct kr_bond *bond);
+
+/** Bytes held, share of filled lanes and of lattice slices, for reports. */
+struct kr_bonds_size {
+    size_t bytes;
+    double lane_fill, lattice_share;
+};
+struct kr_bonds_size kr_bonds_size(const struct kr_bonds *bonds);
+
+#endif

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * What acts on a body from outside: body forces, tractions (as body forces over the nodes of a set)
+ * and prescribed displacements and velocities; their work and the reactions.
+ */
+#ifndef KR_BOUNDARY_H
+#define KR_BOUNDARY_H
+
+#include "body.h"
+#include "case.h"
+#include "nodes.h"
+
+struct kr_boundary; /* Opaque. Implemented in boundary.c. */
+
+/** Check that the sets that loads and no_fail name are there and not empty, and that tractions act on
+ *  sets that belong to a boundary; what is wrong is a fault of the deck. */
+void kr_boundary_check(struct kr_deck *deck, const struct kr_case *c, const struct kr_nodes *nodes);
+
+/** The loads of a case that has passed kr_boundary_check. A fault of the deck: two loads that
+ *  prescribe the same component of a node. */
+struct kr_boundary *kr_boundary_create(struct kr_deck *deck, const struct kr_case *c,
+                                       const struct kr_nodes *nodes);
+void kr_boundary_free(struct kr_boundary *boundary);
+
+/** Add the body forces at time t [s] to body->force. A traction T on a set gives the body force
+ *  T * (length of its boundary)/(volume of the set): the whole force is T times the length. */
+void kr_boundary_push(struct kr_boundary *boundary, struct kr_body *body, double t);
+
+/** Prescribed motion of the step from t to t + dt: where it is prescribed, body->v becomes the
+ *  velocity at t + dt/2 and body->force zero, so that the step leaves it as it is. A prescribed
+ *  displacement gives the velocity that leads there from body->u. */
+void kr_boundary_hold(struct kr_boundary *boundary, struct kr_body *body, double t, double dt);
+
+/** Velocities v [m/s] at time t of the prescribed components, others untouched; arguments as for
+ *  kr_boundary_power. */
+void kr_boundary_velocity(struct kr_boundary *boundary, const struct kr_body *body, double t,
+                          double dt, int first, double *const v[3]);
+
+/** Power [W/m in 2D] of all loads at time t, and the reactions, from the forces at t and the velocity
+ *  body->v half a step before t (at the start itself where `first`): the support of a prescribed
+ *  node pulls with V (rho a - f). */
+double kr_boundary_power(struct kr_boundary *boundary, const struct kr_body *body, double t,
+                         double dt, int first);
+
+/** Loads and what they pulled with at the last kr_boundary_power. */
+size_t kr_boundary_count(const struct kr_boundary *boundary);
+const char *kr_boundary_set(const struct kr_boundary *boundary, size_t k);
+/** Component d of the force of load k on the body [N/m in 2D]. */
+double kr_boundary_reaction(const struct kr_boundary *boundary, size_t k, int d);
+
+#endif

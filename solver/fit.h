@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Polynomials that stand in for a law in the fast loop.
+ *
+ * With e = (|xi+eta|^2 - |xi|^2)/|xi|^2, which needs no square root, the stretch is
+ * s = sqrt(1+e) - 1, and the loop needs
+ *
+ *    pull(e)  = force(s) / ((1 + s) e)     so that  f = c w V pull e (xi + eta)/|xi|
+ *    store(e) = energy(s) / e^2            so that  w = c |xi| store e^2
+ *
+ * Both are smooth for |e| <= range, where Chebyshev interpolation converges to rounding.
+ */
+#ifndef KR_FIT_H
+#define KR_FIT_H
+
+#include "material/material.h"
+
+enum { KR_FIT_TERMS = 32 };
+
+/** A polynomial in e, lowest power first. */
+struct kr_polynomial {
+    int terms;
+    double coefficient[KR_FIT_TERMS];
+};
+
+/** The two polynomials of a material and where they hold: -range <= e <= range. */
+struct kr_fit {
+    double range;
+    struct kr_polynomial pull, store;
+};
+
+/** Fit a material's law to a relative error below 1e-14 where KR_FIT_TERMS terms allow it. `range`
+ *  reaches just past the critical stretch, but at least to 0.02 (bonds may be pressed harder than
+ *  they may be pulled) and at most to 0.5: outside, the loop takes the law itself. */
+struct kr_fit kr_fit_make(const struct kr_material *material);
+
+#endif

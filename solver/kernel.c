@@ -1,0 +1,221 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * The loop over all bonds: force and strain energy of every node. This file is compiled once for
+ * each kind of processor; the width of a vector follows from the target.
+ *
+ *    f_i = sum_j c w_ij V_j (s/|xi+eta|) (xi+eta)        theory.md (7); plates paper eq. 11
+ *    W_i = 1/2 sum_j w_ij V_j c |xi| energy(s)           theory.md (8)
+ *    w_ij = (lambda_i + lambda_j)/2 phi_ij
+ *
+ * without square root or division, by q = eta . (2 xi + eta) = |xi+eta|^2 - |xi|^2, e = q/|xi|^2 and
+ * the polynomials of fit.h. q has no cancellation, however small the stretch.
+ *
+ *   xi    bond vector at rest [m]        eta   difference of displacements [m]
+ *   e     see above                      keep  all bits set in the lanes whose bond lives
+ *
+ * Damage costs nothing here: the loop only notes that some bond of a slice left the range, and
+ * exact.c does that slice again, bond by bond. The readable form of this loop is there, too.
+ */
+#include "kernel.h"
+
+#include <stdint.h>
+
+#if defined(__AVX512F__)
+enum { WIDTH = 8 };
+#elif defined(__AVX__)
+enum { WIDTH = 4 };
+#else
+enum { WIDTH = 2 };
+#endif
+
+typedef double vector __attribute__((vector_size(WIDTH * 8)));
+typedef double vector_anywhere __attribute__((vector_size(WIDTH * 8), aligned(8), may_alias));
+typedef int64_t mask __attribute__((vector_size(WIDTH * 8)));
+typedef float floats __attribute__((vector_size(WIDTH * 4), aligned(4), may_alias));
+
+#define INLINE static inline __attribute__((always_inline))
+
+INLINE vector load(const double *from) {
+    return *(const vector_anywhere *)from;
+}
+
+INLINE void store(double *to, vector value) {
+    *(vector_anywhere *)to = value;
+}
+
+INLINE vector load_floats(const float *from) {
+    return __builtin_convertvector(*(const floats *)from, vector);
+}
+
+INLINE vector same(double value) {
+    return value - (vector){0};
+}
+
+/* Lanes of a vector whose bit in `bits` is set. */
+INLINE mask mask_of(unsigned bits) {
+#if defined(__AVX512F__)
+    const mask lane = {1, 2, 4, 8, 16, 32, 64, 128};
+#elif defined(__AVX__)
+    const mask lane = {1, 2, 4, 8};
+#else
+    const mask lane = {1, 2};
+#endif
+    return (((mask){0} + (int64_t)bits) & lane) != 0;
+}
+
+INLINE vector only(vector value, mask keep) {
+    return (vector)((mask)value & keep);
+}
+
+INLINE int any(mask m) {
+    int64_t all = 0;
+    for (int k = 0; k < WIDTH; k++)
+        all |= m[k];
+    return all != 0;
+}
+
+/* Two interleaved Horner chains, in e^2: half the latency of one. `terms` is even. */
+INLINE vector polynomial(const double *coefficient, int terms, vector e) {
+    vector square = e * e;
+    vector even = same(coefficient[terms - 2]), odd = same(coefficient[terms - 1]);
+    for (int k = terms - 4; k >= 0; k -= 2) {
+        even = even * square + coefficient[k];
+        odd = odd * square + coefficient[k + 1];
+    }
+    return odd * e + even;
+}
+
+/* A slice's lanes while its rows are summed. */
+struct lanes {
+    size_t node;         /* of the first lane */
+    vector u[3], x[3], factor;
+    vector sum[3];       /* force in `force`; sum[0] is the energy in `energy` */
+    mask left;           /* lanes in which e left the range */
+};
+
+/* e of the bonds of a row, with eta and xi; sets `left`. */
+INLINE vector measure(struct lanes *l, const struct kr_kernel_work *work, int dim, size_t j,
+                      const vector *xi, vector inverse_square, vector *eta, mask keep) {
+    vector q = {0};
+    for (int d = 0; d < dim; d++) {
+        eta[d] = load(work->u[d] + j) - l->u[d];
+        q += eta[d] * (2 * xi[d] + eta[d]);
+    }
+    vector e = q * inverse_square;
+    const struct kr_bonds *b = work->bonds;
+    l->left |= ((e > b->flag_above) | (e < b->flag_below)) & keep;
+    return e;
+}
+
+/* Add a row of bonds: `scale` is all of c w V/|xi| but the lambdas (force), or c w V |xi|. */
+INLINE void add_row(struct lanes *l, const struct kr_kernel_work *work, int dim, int terms,
+                    int energy, size_t j, const vector *xi, vector inverse_square, vector scale,
+                    mask keep) {
+    const struct kr_bonds *b = work->bonds;
+    vector eta[3];
+    vector e = measure(l, work, dim, j, xi, inverse_square, eta, keep);
+    vector both = l->factor + load(b->factor + j);
+    if (energy) {
+        vector stored = polynomial(b->fit.store.coefficient, terms, e) * e * e;
+        l->sum[0] += only(stored * scale * both, keep);
+        return;
+    }
+    vector pull = only(polynomial(b->fit.pull.coefficient, terms, e) * e * scale * both, keep);
+    for (int d = 0; d < dim; d++)
+        l->sum[d] += pull * (xi[d] + eta[d]);
+}
+
+INLINE void sum_lattice(struct lanes *l, const struct kr_kernel_work *work, int dim, int terms,
+                        int energy, size_t slice, int part) {
+    const struct kr_bonds *b = work->bonds;
+    for (size_t r = b->first[slice]; r < b->first[slice + 1]; r++) {
+        const struct kr_bond_kind *kind = &b->kinds[b->kind[r]];
+        mask keep = mask_of((unsigned)b->living[r] >> (part * WIDTH));
+        vector xi[3];
+        for (int d = 0; d < dim; d++)
+            xi[d] = same(kind->xi[d]);
+        add_row(l, work, dim, terms, energy, l->node + (size_t)(ptrdiff_t)b->offset[r], xi,
+                same(kind->inverse_square), same(energy ? kind->store : kind->pull), keep);
+    }
+}
+
+INLINE void sum_general(struct lanes *l, const struct kr_kernel_work *work, int dim, int terms,
+                        int energy, size_t slice, int part) {
+    const struct kr_bonds *b = work->bonds;
+    const float *inverse = b->inverse + KR_LANES * b->first_inverse[slice] + part * WIDTH;
+    const float *weight = b->weight + KR_LANES * b->first_weight[slice] + part * WIDTH;
+    const double c = b->material.micromodulus * (energy ? 0.25 : 0.5);
+    for (size_t r = b->first[slice]; r < b->first[slice + 1]; r++) {
+        mask keep = mask_of((unsigned)b->living[r] >> (part * WIDTH));
+        size_t j = l->node + (size_t)(ptrdiff_t)b->offset[r];
+        vector xi[3], square = {0};
+        for (int d = 0; d < dim; d++) {
+            xi[d] = load(b->x[d] + j) - l->x[d];
+            square += xi[d] * xi[d];
+        }
+        /* One Newton step takes 1/|xi| from the 24 bits stored to 48. */
+        vector root = load_floats(inverse);
+        root = root * (1.5 - 0.5 * square * root * root);
+        vector scale = c * load(b->volume + j) * (energy ? square * root : root);
+        if (b->kind[r]) {
+            scale *= load_floats(weight);
+            weight += KR_LANES;
+        }
+        inverse += KR_LANES;
+        add_row(l, work, dim, terms, energy, j, xi, root * root, scale, keep);
+    }
+}
+
+/* One slice, WIDTH lanes at a time. */
+INLINE void do_slice(const struct kr_kernel_work *work, int dim, int terms, int energy,
+                     size_t slice) {
+    const struct kr_bonds *b = work->bonds;
+    unsigned char flag = 0;
+    for (int part = 0; part < KR_LANES / WIDTH; part++) {
+        struct lanes l = {.node = slice * KR_LANES + (size_t)part * WIDTH};
+        for (int d = 0; d < dim; d++) {
+            l.u[d] = load(work->u[d] + l.node);
+            l.x[d] = load(b->x[d] + l.node);
+        }
+        l.factor = load(b->factor + l.node);
+        if (b->lattice[slice])
+            sum_lattice(&l, work, dim, terms, energy, slice, part);
+        else
+            sum_general(&l, work, dim, terms, energy, slice, part);
+        if (energy)
+            store(work->energy + l.node, l.sum[0]);
+        for (int d = 0; d < dim && !energy; d++)
+            store(work->force[d] + l.node, l.sum[d]);
+        flag |= (unsigned char)any(l.left);
+    }
+    work->flag[slice] = flag;
+}
+
+/* The common lengths of the polynomials are constants, so that their loops unroll. */
+INLINE void do_slices(const struct kr_kernel_work *work, int energy, size_t begin, size_t end) {
+    const struct kr_fit *fit = &work->bonds->fit;
+    const int terms = energy ? fit->store.terms : fit->pull.terms, dim = work->bonds->dim;
+    if (dim == 2 && terms == 8)
+        for (size_t slice = begin; slice < end; slice++)
+            do_slice(work, 2, 8, energy, slice);
+    else if (dim == 2 && terms == 10)
+        for (size_t slice = begin; slice < end; slice++)
+            do_slice(work, 2, 10, energy, slice);
+    else if (dim == 2)
+        for (size_t slice = begin; slice < end; slice++)
+            do_slice(work, 2, terms, energy, slice);
+    else
+        for (size_t slice = begin; slice < end; slice++)
+            do_slice(work, 3, terms, energy, slice);
+}
+
+static void force(const struct kr_kernel_work *work, size_t begin, size_t end) {
+    do_slices(work, 0, begin, end);
+}
+
+static void energy(const struct kr_kernel_work *work, size_t begin, size_t end) {
+    do_slices(work, 1, begin, end);
+}
+
+extern const struct kr_kernel KR_KERNEL;
+const struct kr_kernel KR_KERNEL = {.name = KR_KERNEL_NAME, .force = force, .energy = energy};

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * The loop over all bonds, built from one source for several kinds of processors.
+ */
+#ifndef KR_KERNEL_H
+#define KR_KERNEL_H
+
+#include "bonds.h"
+
+/** What a kernel reads and writes, all arrays from kr_bonds_padded. */
+struct kr_kernel_work {
+    const struct kr_bonds *bonds;
+    const double *u[3];     /* m */
+    double *force[3];       /* N/m^3, written by `force` */
+    double *energy;         /* J/m^3, written by `energy` */
+    unsigned char *flag;    /* (n_slices) set to 1 where some living bond's e is out of the range of
+                               the polynomials (past the critical stretch, too): what was written
+                               for that slice is worthless and the exact loop must do it again */
+};
+
+/** One build of the loop. Both functions do slices begin to end - 1. */
+struct kr_kernel {
+    const char *name;
+    void (*force)(const struct kr_kernel_work *work, size_t begin, size_t end);
+    void (*energy)(const struct kr_kernel_work *work, size_t begin, size_t end);
+};
+
+/** The best build for this processor; the environment's KIRSCH_KERNEL (baseline, avx2, avx512) picks
+ *  another one that it can run. Stops (exit 2) if it cannot. */
+const struct kr_kernel *kr_kernel_best(void);
+
+#endif

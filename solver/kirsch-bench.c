@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * kirsch-bench: how fast the loop over bonds is. Whole steps (bonds tested, forces, kick and drift)
+ * on node sets made here, the best of several short runs; one line a figure into a CSV file.
+ *
+ * A directed bond update is a bond seen from one of its two ends.
+ */
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/progress.h"
+#include "body.h"
+
+#include <errno.h>
+#include <math.h>
+#include <omp.h>
+#include <stdio.h>
+#include <string.h>
+
+/* The set of speed measurements: the plates paper's plate, 1250 x 625 nodes at m = 4. */
+enum { COLUMNS = 1250, ROWS = 625, PATCHES = 8 };
+static const double SPACING = 0.04e-3, HORIZON = 0.16e-3;
+
+enum where { JITTER_PATCHES, JITTER_ALL };
+
+/* A number in [-1, 1] that depends on k alone. */
+static double noise(uint64_t k) {
+    k = (k + 1) * UINT64_C(0x9E3779B97F4A7C15);
+    k = (k ^ (k >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
+    k = (k ^ (k >> 27)) * UINT64_C(0x94D049BB133111EB);
+    return (double)((k ^ (k >> 31)) >> 11) * 0x1p-52 - 1;
+}
+
+/* Whether a node lies in one of the patches, rings around eight places, that stand for the boxes
+ * around pores: about a tenth of the plate. */
+static int in_patch(double x, double y) {
+    for (int p = 0; p < PATCHES; p++) {
+        double cx = COLUMNS * SPACING * (p % 4 + 0.5) / 4, cy = ROWS * SPACING * (p / 4 + 0.5) / 2;
+        if (hypot(x - cx, y - cy) < 2.2e-3)
+            return 1;
+    }
+    return 0;
+}
+
+static struct kr_nodes *make_nodes(enum where where) {
+    struct kr_nodes *nodes = kr_nodes_create(2, (size_t)COLUMNS * ROWS);
+    nodes->spacing = SPACING;
+    for (size_t i = 0; i < nodes->n; i++) {
+        double *x = nodes->position + 2 * i;
+        x[0] = SPACING * ((double)(i % COLUMNS) + 0.5);
+        x[1] = SPACING * ((double)(i / COLUMNS) + 0.5);
+        nodes->volume[i] = SPACING * SPACING;
+        if (where == JITTER_ALL || in_patch(x[0], x[1])) {
+            x[0] += 0.2 * SPACING * noise(3 * i);
+            x[1] += 0.2 * SPACING * noise(3 * i + 1);
+            nodes->volume[i] *= 1 + 0.15 * noise(3 * i + 2);
+        }
+        nodes->factor[i] = 1 + 0.01 * noise(7 * i);
+    }
+    return nodes;
+}
+
+static struct kr_body *make_body(const struct kr_nodes *nodes, int threads) {
+    omp_set_num_threads(threads);
+    struct kr_material pmma = kr_material_make(kr_law_named("pmb"), KR_PLANE_STRESS, 3.24e9, 1190,
+                                               200, HORIZON);
+    struct kr_body *body = kr_body_create(kr_bonds_create(nodes, &pmma, KR_PARTIAL_VOLUME_HHB));
+    for (size_t i = 0; i < body->n; i++)
+        for (int d = 0; d < 2; d++)
+            body->u[d][i] = 1e-4 * SPACING * noise(2 * i + (size_t)d);
+    return body;
+}
+
+/* Directed bond updates a second: the best of several runs of some steps. */
+static double rate_of(struct kr_body *body) {
+    enum { RUNS = 7, STEPS = 8 };
+    double best = INFINITY;
+    for (int run = 0; run < RUNS; run++) {
+        double begun = kr_progress_clock();
+        for (int step = 0; step < STEPS; step++) {
+            kr_body_force(body, 1);
+            kr_body_advance(body, 1e-9, 1e-9);
+        }
+        best = fmin(best, kr_progress_clock() - begun);
+    }
+    return (double)body->bonds->count * STEPS / best;
+}
+
+static void put(FILE *file, const char *name, double value, const char *unit) {
+    fprintf(file, "%s,%.6g,%s\n", name, value, unit);
+    kr_say("  %-28s %10.4g %s", name, value, unit);
+}
+
+static double measure(enum where where, int threads, double *bytes_per_node) {
+    struct kr_nodes *nodes = make_nodes(where);
+    size_t before = kr_memory_bytes();
+    struct kr_body *body = make_body(nodes, threads);
+    struct kr_bonds *bonds = body->bonds;
+    double rate = rate_of(body);
+    *bytes_per_node = (double)(kr_memory_bytes() - before) / (double)nodes->n;
+    kr_body_free(body);
+    kr_bonds_free(bonds);
+    kr_nodes_free(nodes);
+    return rate;
+}
+
+int main(int argc, char **argv) {
+    kr_error_program("kirsch-bench");
+    if (argc != 2)
+        kr_stop(KR_EXIT_INPUT, "expected one argument, the CSV file to write");
+    FILE *file = fopen(argv[1], "w");
+    if (!file)
+        kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", argv[1], strerror(errno));
+    fprintf(file, "name,value,unit\n");
+    double bytes, two = NAN, one = measure(JITTER_PATCHES, 1, &bytes);
+    kr_say("loop '%s', %d x %d nodes", kr_kernel_best()->name, COLUMNS, ROWS);
+    put(file, "pmb_2d_double_1", one, "1/s");
+    put(file, "memory_per_node_2d_B", bytes, "B");
+    if (omp_get_num_procs() > 1) {
+        two = measure(JITTER_PATCHES, 2, &bytes);
+        put(file, "pmb_2d_double_2", two, "1/s");
+        put(file, "pmb_2d_threads_2_over_1", two / one, "1");
+    }
+    put(file, "pmb_2d_general_double_1", measure(JITTER_ALL, 1, &bytes), "1/s");
+    if (fclose(file))
+        kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", argv[1], strerror(errno));
+    return KR_EXIT_OK;
+}

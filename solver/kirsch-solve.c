@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * kirsch-solve: nodes -> results.
+ */
+#include "base/error.h"
+#include "base/expression.h"
+#include "base/memory.h"
+#include "run.h"
+
+static const char usage[] =
+    "kirsch-solve: solve a case. Reads plate.nodes.h5 in the case's folder; writes run.h5, run.xdmf\n"
+    "(for ParaView) and history.csv there.";
+
+int main(int argc, char **argv) {
+    struct kr_case_arguments arguments;
+    struct kr_case c;
+    kr_error_program("kirsch-solve");
+    kr_case_arguments(argc, argv, usage, &arguments);
+    struct kr_deck *deck = kr_case_open(&arguments, &c);
+    struct kr_run *run = kr_run_create(deck, &c);
+    if (arguments.explain) {
+        kr_run_explain(run);
+    } else {
+        char *deck_text = kr_deck_resolved(deck, NULL);
+        kr_run_solve(run, deck_text);
+        kr_free(deck_text);
+    }
+    kr_run_free(run);
+    kr_deck_close(deck);
+    return KR_EXIT_OK;
+}

@@ -1,0 +1,302 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * kirsch: runs the steps of a case that are out of date, each a program of its own.
+ *
+ * A step is up to date if its outputs are there and its stamp (in the folder .steps of the case) is
+ * the hash of what it depends on: the deck's sections that it reads, its input files by size and
+ * time, and the version of Kirsch. Files edited by hand are thus inputs of the steps behind them.
+ */
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/provenance.h"
+#include "case.h"
+#include "child.h"
+#include "doctor.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static const char usage[] =
+    "kirsch case.yaml         run the steps of a case that are out of date:\n"
+    "                         kirsch-pores, -mesh, -nodes, -solve, -track, -plot\n"
+    "kirsch doctor            is everything installed and sane?\n"
+    "kirsch --deck-reference  print the reference of the deck's keys (Markdown)\n"
+    "\n"
+    "  --variant NAME     a variant of the deck\n"
+    "  --set KEY=VALUE    a value over the deck's, any number of times\n"
+    "  --output FOLDER    the case's folder\n"
+    "  --force            run all steps\n"
+    "  --check            check the deck, do nothing else\n"
+    "  --explain          say what the deck leads to, do nothing else\n";
+
+struct step {
+    const char *program;
+    const char *sections;   /* of the deck, that it reads */
+    const char *inputs[4];  /* in the case's folder */
+    const char *outputs[4];
+};
+
+static const struct step steps[] = {
+    {"kirsch-pores", "geometry", {NULL}, {"pores.txt"}},
+    {"kirsch-mesh", "geometry mesh nodes", {"pores.txt"}, {"plate.msh"}},
+    {"kirsch-nodes", "nodes material loads no_fail", {"plate.msh"}, {"plate.nodes.h5", "nodes.dat"}},
+    {"kirsch-solve",
+     "title nodes material cracks loads no_fail solver output",
+     {"plate.nodes.h5"},
+     {"run.h5", "history.csv"}},
+    {"kirsch-track", "track", {"run.h5"}, {"tips.csv", "summary.csv"}},
+    {"kirsch-plot",
+     "title geometry",
+     {"run.h5", "tips.csv", "pores.txt"},
+     {"pictures/damage.png"}},
+};
+enum { STEPS = sizeof steps / sizeof steps[0] };
+
+/* What the steps work on. */
+struct job {
+    struct kr_case_arguments arguments;
+    struct kr_case c;
+    struct kr_deck *deck;
+    int force;
+};
+
+/* ---- stamps ---- */
+
+static uint64_t hash_text(uint64_t hash, const char *text) {
+    return kr_hash(hash, text, strlen(text) + 1);
+}
+
+/* Size and time of a file; a missing one is as good an answer. */
+static uint64_t hash_file(uint64_t hash, const struct kr_case *c, const char *name) {
+    struct stat state;
+    char *path = kr_case_file(c, name);
+    int64_t what[3] = {-1, 0, 0};
+    if (stat(path, &state) == 0) {
+        what[0] = state.st_size;
+        what[1] = state.st_mtim.tv_sec;
+        what[2] = state.st_mtim.tv_nsec;
+    }
+    kr_free(path);
+    return kr_hash(hash, what, sizeof what);
+}
+
+static uint64_t stamp_of(const struct job *job, const struct step *step) {
+    char *sections = kr_deck_resolved(job->deck, step->sections);
+    uint64_t hash = hash_text(hash_text(KR_HASH_BEGIN, kr_version()), sections);
+    for (int k = 0; k < 4 && step->inputs[k]; k++)
+        hash = hash_file(hash, &job->c, step->inputs[k]);
+    kr_free(sections);
+    return hash;
+}
+
+static char *stamp_path(const struct job *job, const struct step *step) {
+    char *name = kr_text(".steps/%s", step->program);
+    char *path = kr_case_file(&job->c, name);
+    kr_free(name);
+    return path;
+}
+
+static int is_up_to_date(const struct job *job, const struct step *step) {
+    uint64_t stamp = 0;
+    char *path = stamp_path(job, step);
+    FILE *file = fopen(path, "r");
+    int there = file && fscanf(file, "%" SCNx64, &stamp) == 1;
+    if (file)
+        fclose(file);
+    kr_free(path);
+    for (int k = 0; k < 4 && step->outputs[k] && there; k++) {
+        char *output = kr_case_file(&job->c, step->outputs[k]);
+        there = access(output, R_OK) == 0;
+        kr_free(output);
+    }
+    return there && stamp == stamp_of(job, step);
+}
+
+static void write_stamp(const struct job *job, const struct step *step) {
+    char *folder = kr_case_file(&job->c, ".steps"), *path = stamp_path(job, step);
+    if (mkdir(folder, 0777) && errno != EEXIST)
+        kr_stop(KR_EXIT_STORAGE, "%s: cannot be made: %s", folder, strerror(errno));
+    FILE *file = fopen(path, "w");
+    if (!file || fprintf(file, "%016" PRIx64 "\n", stamp_of(job, step)) < 0 || fclose(file))
+        kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", path, strerror(errno));
+    kr_free(folder);
+    kr_free(path);
+}
+
+/* ---- steps ---- */
+
+/* The program with the options that this one was given. */
+static char **command_of(const struct job *job, char *program) {
+    const struct kr_case_arguments *a = &job->arguments;
+    const char **word = KR_NEW(const char *, 8 + 2 * a->n_set);
+    size_t n = 0;
+    word[n++] = program;
+    word[n++] = a->deck;
+    if (a->variant) {
+        word[n++] = "--variant";
+        word[n++] = a->variant;
+    }
+    if (a->folder) {
+        word[n++] = "--output";
+        word[n++] = a->folder;
+    }
+    for (size_t k = 0; k < a->n_set; k++) {
+        word[n++] = "--set";
+        word[n++] = a->set[k];
+    }
+    return (char **)word;
+}
+
+/* Run one step and wait; what goes wrong has been said by the step itself. */
+static void run_step(const struct job *job, const struct step *step) {
+    char *program = kr_child_beside(step->program);
+    char **command = command_of(job, program);
+    int status;
+    kr_say("%s", step->program);
+    pid_t child = fork();
+    if (child < 0)
+        kr_stop(KR_EXIT_LIBRARY, "cannot start %s: %s", program, strerror(errno));
+    if (child == 0) {
+        execv(program, command);
+        _exit(127);
+    }
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR)
+        ;
+    if (WIFEXITED(status) && WEXITSTATUS(status))
+        kr_stop(WEXITSTATUS(status), "%s did not finish; the steps behind it were not run",
+                step->program);
+    if (WIFSIGNALED(status))
+        kr_stop(KR_EXIT_LIBRARY, "%s was ended by signal %d (%s)", step->program, WTERMSIG(status),
+                strsignal(WTERMSIG(status)));
+    kr_free(command);
+    kr_free(program);
+}
+
+static void run_steps(const struct job *job) {
+    int behind = job->force;
+    for (int k = 0; k < STEPS; k++) {
+        const struct step *step = &steps[k];
+        if (k == 0 && !job->c.pores.count)
+            continue;
+        if (!behind && is_up_to_date(job, step)) {
+            kr_say("%s is up to date", step->program);
+            continue;
+        }
+        run_step(job, step);
+        write_stamp(job, step);
+    }
+}
+
+/* ---- the end ---- */
+
+static double summary_value(const char *path, const char *name) {
+    char line[512], found[256];
+    double value, result = 0;
+    FILE *file = fopen(path, "r");
+    while (file && fgets(line, sizeof line, file))
+        if (sscanf(line, "%255[^,],%lf", found, &value) == 2 && !strcmp(found, name))
+            result = value;
+    if (file)
+        fclose(file);
+    return result;
+}
+
+static void print_summary(const struct job *job) {
+    char *path = kr_case_file(&job->c, "summary.csv");
+#define VALUE(name) summary_value(path, name)
+    kr_say("\n%s", job->c.title ? job->c.title : job->arguments.deck);
+    kr_say("  %.0f nodes, %.0f bonds, %.0f steps of %.4g us", VALUE("nodes"), VALUE("bonds"),
+           VALUE("steps"), 1e6 * VALUE("time_step"));
+    if (VALUE("broken_bonds") > 0) {
+        kr_say("  first growth at %.2f us, %.0f bonds broken, %.0f branches", 1e6 * VALUE("first_growth"),
+               VALUE("broken_bonds"), VALUE("branches"));
+        kr_say("  crack speed %.0f m/s in the mean (%.2f of the Rayleigh speed %.0f m/s), %.0f m/s "
+               "at the top (%.2f)", VALUE("mean_speed"), VALUE("mean_speed_over_rayleigh"),
+               VALUE("rayleigh_speed"), VALUE("top_speed"), VALUE("top_speed_over_rayleigh"));
+    } else {
+        kr_say("  no bond broke");
+    }
+    kr_say("  energy: %.4g J/m of work = %.4g kinetic + %.4g strain + %.4g fracture; balance %.2g %%",
+           VALUE("external_work"), VALUE("kinetic_energy"), VALUE("strain_energy"),
+           VALUE("fracture_work"), 100 * VALUE("energy_balance"));
+#undef VALUE
+    kr_free(path);
+}
+
+static void print_paths(const struct job *job) {
+    static const char *const made[] = {
+        "pictures/grid.png", "pictures/damage.png",  "pictures/energy.png",
+        "pictures/speed.png", "pictures/tip.png", "pictures/history.png", "pictures/crack.mp4",
+        "tips.csv",          "history.csv",          "summary.csv",
+        "run.xdmf"};
+    for (size_t k = 0; k < sizeof made / sizeof made[0]; k++) {
+        char *path = kr_case_file(&job->c, made[k]);
+        if (access(path, R_OK) == 0)
+            kr_say("  %s%s", path, strstr(path, ".xdmf") ? "   (open in ParaView)" : "");
+        kr_free(path);
+    }
+}
+
+/* ---- the beginning ---- */
+
+static void take_own_arguments(struct job *job) {
+    for (size_t k = 0; k < job->arguments.n_left; k++) {
+        if (strcmp(job->arguments.left[k], "--force"))
+            kr_stop(KR_EXIT_INPUT, "unknown argument '%s'; see kirsch --help",
+                    job->arguments.left[k]);
+        job->force = 1;
+    }
+}
+
+/* kirsch-solve knows what follows from the deck, once there are nodes. */
+static void explain(const struct job *job) {
+    char *nodes = kr_case_file(&job->c, "plate.nodes.h5");
+    double cells = job->c.width * job->c.height / (job->c.spacing * job->c.spacing);
+    char *deck_text = kr_deck_resolved(job->deck, NULL);
+    printf("%s", deck_text);
+    kr_say("about %.0f nodes", cells);
+    if (access(nodes, R_OK) == 0) {
+        char *program = kr_child_beside("kirsch-solve");
+        char **command = command_of(job, program);
+        size_t n = 0;
+        while (command[n])
+            n++;
+        command[n] = "--explain";
+        execv(program, command);
+        kr_stop(KR_EXIT_LIBRARY, "cannot start %s: %s", program, strerror(errno));
+    }
+    kr_say("there are no nodes yet: bonds, time step, memory and time follow from them; run "
+           "kirsch-pores, kirsch-mesh and kirsch-nodes on the deck, then --explain again");
+    kr_free(nodes);
+    kr_free(deck_text);
+}
+
+int main(int argc, char **argv) {
+    struct job job = {0};
+    kr_error_program("kirsch");
+    if (argc == 2 && !strcmp(argv[1], "doctor"))
+        return kr_doctor();
+    if (argc == 2 && !strcmp(argv[1], "--deck-reference")) {
+        kr_deck_reference(stdout, kr_case_keys);
+        return KR_EXIT_OK;
+    }
+    kr_case_arguments(argc, argv, usage, &job.arguments);
+    take_own_arguments(&job);
+    job.deck = kr_case_open(&job.arguments, &job.c);
+    if (job.arguments.explain) {
+        explain(&job);
+    } else {
+        run_steps(&job);
+        print_summary(&job);
+        print_paths(&job);
+    }
+    kr_deck_close(job.deck);
+    kr_free(job.arguments.set);
+    kr_free(job.arguments.left);
+    return KR_EXIT_OK;
+}

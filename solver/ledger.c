@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * The energy ledger. Velocities live half a step before the forces; at the time of the forces they
+ * are v + dt/2 f/rho, or what is prescribed, and with these all terms are of second order in dt.
+ */
+#include "ledger.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+struct kr_ledger *kr_ledger_create(const struct kr_body *body) {
+    struct kr_ledger *ledger = KR_NEW(struct kr_ledger, 1);
+    *ledger = (struct kr_ledger){.n = body->n, .dim = body->dim};
+    for (int d = 0; d < body->dim; d++)
+        ledger->v[d] = kr_bonds_padded(body->n);
+    return ledger;
+}
+
+void kr_ledger_free(struct kr_ledger *ledger) {
+    for (int d = 0; d < ledger->dim; d++)
+        kr_bonds_padded_free(ledger->v[d]);
+    kr_free(ledger);
+}
+
+void kr_ledger_step(struct kr_ledger *ledger, struct kr_boundary *boundary,
+                    const struct kr_body *body, double t, double dt, int first) {
+    double power = kr_boundary_power(boundary, body, t, dt, first);
+    if (!first)
+        ledger->external += 0.5 * dt * (ledger->power + power);
+    ledger->power = power;
+}
+
+struct motion {
+    const struct kr_ledger *ledger;
+    const struct kr_bonds *bonds;
+};
+
+static double kinetic_of_node(const void *context, size_t i) {
+    const struct motion *m = context;
+    double square = 0;
+    for (int d = 0; d < m->ledger->dim; d++)
+        square += m->ledger->v[d][i] * m->ledger->v[d][i];
+    return 0.5 * m->bonds->material.density * m->bonds->volume[i] * square;
+}
+
+void kr_ledger_update(struct kr_ledger *ledger, struct kr_boundary *boundary, struct kr_body *body,
+                      const struct kr_crack *crack, double t, double dt, int first) {
+    const double half = first ? 0 : 0.5 * dt / body->bonds->material.density;
+    for (int d = 0; d < body->dim; d++) {
+#pragma omp parallel for schedule(static)
+        for (size_t i = 0; i < body->n; i++)
+            ledger->v[d][i] = body->v[d][i] + half * body->force[d][i];
+    }
+    kr_boundary_velocity(boundary, body, t, dt, first, ledger->v);
+    struct motion motion = {ledger, body->bonds};
+    ledger->kinetic = kr_body_sum(body->n, kinetic_of_node, &motion);
+    ledger->strain = kr_body_energy(body);
+    ledger->fracture = crack->energy;
+}
+
+double kr_ledger_balance(const struct kr_ledger *ledger) {
+    return ledger->external - ledger->kinetic - ledger->strain - ledger->fracture;
+}
+
+/* ---- history.csv ---- */
+
+struct kr_history {
+    FILE *file;
+    char *path;
+    int dim;
+};
+
+static void check_written(struct kr_history *h) {
+    if (fflush(h->file) || ferror(h->file))
+        kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s; free some space and run again",
+                h->path, strerror(errno));
+}
+
+struct kr_history *kr_history_open(const char *path, const struct kr_boundary *boundary, int dim) {
+    struct kr_history *h = KR_NEW(struct kr_history, 1);
+    *h = (struct kr_history){.file = fopen(path, "w"), .path = kr_text_copy(path), .dim = dim};
+    if (!h->file)
+        kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", path, strerror(errno));
+    fprintf(h->file, "step,time [s],kinetic [J/m],strain [J/m],fracture [J/m],external_work [J/m],"
+                     "balance [J/m],broken_bonds");
+    for (size_t k = 0; k < kr_boundary_count(boundary); k++)
+        for (int d = 0; d < dim; d++)
+            fprintf(h->file, ",reaction_%c %s [N/m]", "xyz"[d], kr_boundary_set(boundary, k));
+    fprintf(h->file, "\n");
+    check_written(h);
+    return h;
+}
+
+void kr_history_write(struct kr_history *h, const struct kr_ledger *ledger,
+                      const struct kr_boundary *boundary, const struct kr_crack *crack, long step,
+                      double t) {
+    fprintf(h->file, "%ld,%.9g,%.12g,%.12g,%.12g,%.12g,%.6g,%zu", step, t, ledger->kinetic,
+            ledger->strain, ledger->fracture, ledger->external, kr_ledger_balance(ledger),
+            crack->count);
+    for (size_t k = 0; k < kr_boundary_count(boundary); k++)
+        for (int d = 0; d < h->dim; d++)
+            fprintf(h->file, ",%.9g", kr_boundary_reaction(boundary, k, d));
+    fprintf(h->file, "\n");
+    check_written(h);
+}
+
+void kr_history_close(struct kr_history *h) {
+    if (fclose(h->file))
+        kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", h->path, strerror(errno));
+    kr_free(h->path);
+    kr_free(h);
+}

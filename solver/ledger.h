@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * The energy ledger: what went in, what is there, what fracture took; and history.csv.
+ */
+#ifndef KR_LEDGER_H
+#define KR_LEDGER_H
+
+#include "body.h"
+#include "boundary.h"
+#include "crack.h"
+
+/** Energies at one time [J/m in 2D]. */
+struct kr_ledger {
+    double kinetic, strain, fracture, external;
+    double power; /* W/m, of the loads at the last step */
+    double *v[3]; /* m/s: room for the velocities at the time of the forces */
+    size_t n;
+    int dim;
+};
+
+struct kr_ledger *kr_ledger_create(const struct kr_body *body);
+void kr_ledger_free(struct kr_ledger *ledger);
+
+/** Add the external work up to time t by the trapezoidal rule on the power; once every step. */
+void kr_ledger_step(struct kr_ledger *ledger, struct kr_boundary *boundary,
+                    const struct kr_body *body, double t, double dt, int first);
+
+/** Bring kinetic, strain and fracture up to time t, and the velocities at t into ledger->v. */
+void kr_ledger_update(struct kr_ledger *ledger, struct kr_boundary *boundary, struct kr_body *body,
+                      const struct kr_crack *crack, double t, double dt, int first);
+
+/** external - kinetic - strain - fracture: 0 but for the error of the time integration. */
+double kr_ledger_balance(const struct kr_ledger *ledger);
+
+struct kr_history; /* Opaque: the open history.csv. */
+
+/** Begin history.csv with its header. Stops (exit 3) where it cannot be written. */
+struct kr_history *kr_history_open(const char *path, const struct kr_boundary *boundary, int dim);
+void kr_history_write(struct kr_history *history, const struct kr_ledger *ledger,
+                      const struct kr_boundary *boundary, const struct kr_crack *crack, long step,
+                      double t);
+void kr_history_close(struct kr_history *history);
+
+#endif

@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * The list of laws, and the constants that every law shares.
+ *
+ * c follows from the strain energy of a uniform strain, s0 from the energy of the bonds that cross a
+ * unit of crack area; both integrals are checked by tests/property/constants.c.
+ */
+#include "material/material.h"
+
+#include "base/error.h"
+#include "material/pmb.h"
+
+#include <math.h>
+#include <string.h>
+
+const struct kr_law *const kr_laws[] = {
+    &kr_law_pmb,
+};
+const size_t kr_laws_count = sizeof kr_laws / sizeof kr_laws[0];
+
+/* One row a model: c = micromodulus E/(pi delta^3), s0 = sqrt(stretch pi G0/(E delta)). */
+static const struct {
+    double poissons_ratio, micromodulus, stretch;
+} models[] = {
+    [KR_PLANE_STRESS] = {1.0 / 3, 9.0, 4.0 / 9},
+    [KR_PLANE_STRAIN] = {1.0 / 4, 48.0 / 5, 5.0 / 12},
+};
+
+const struct kr_law *kr_law_named(const char *name) {
+    for (size_t k = 0; k < kr_laws_count; k++)
+        if (!strcmp(kr_laws[k]->name, name))
+            return kr_laws[k];
+    return NULL;
+}
+
+/* The stretch at which a law's bond holds this energy, by bisection: energies grow with s. */
+static double stretch_at(const struct kr_law *law, double energy) {
+    double low = 0, high = 1;
+    while (law->energy(high) < energy && high < 1e6)
+        high *= 2;
+    for (int k = 0; k < 200; k++) {
+        double middle = 0.5 * (low + high);
+        *(law->energy(middle) < energy ? &low : &high) = middle;
+    }
+    return high;
+}
+
+struct kr_material kr_material_make(const struct kr_law *law, int model, double youngs_modulus,
+                                    double density, double fracture_energy, double horizon) {
+    struct kr_material m = {
+        .law = law,
+        .model = model,
+        .youngs_modulus = youngs_modulus,
+        .poissons_ratio = models[model].poissons_ratio,
+        .density = density,
+        .fracture_energy = fracture_energy,
+        .horizon = horizon,
+        .micromodulus = models[model].micromodulus * youngs_modulus / (M_PI * pow(horizon, 3)),
+        .critical_stretch = INFINITY,
+    };
+    if (fracture_energy > 0) {
+        double linear =
+            sqrt(models[model].stretch * M_PI * fracture_energy / (youngs_modulus * horizon));
+        m.critical_stretch = stretch_at(law, 0.5 * linear * linear);
+    }
+    return m;
+}
+
+struct kr_material kr_material_of(const struct kr_case *c) {
+    const struct kr_law *law = kr_law_named(c->law);
+    kr_assert(law); /* kr_case_check has seen to it */
+    return kr_material_make(law, c->model, c->youngs_modulus, c->density, c->fracture_energy,
+                            c->horizon);
+}

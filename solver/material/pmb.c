@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Prototype microelastic brittle material: a linear spring until it breaks.
+ *
+ *    F = c s ,  w = c |xi| s^2 / 2          theory.md (3); plates paper eq. 4 and 7
+ *
+ *    s   stretch, (|xi + eta| - |xi|)/|xi|
+ */
+#include "material/pmb.h"
+
+static double force(double s) {
+    return s;
+}
+
+static double energy(double s) {
+    return 0.5 * s * s;
+}
+
+const struct kr_law kr_law_pmb = {
+    .name = "pmb",
+    .text = "prototype microelastic brittle: linear in the stretch until it breaks",
+    .force = force,
+    .energy = energy,
+};

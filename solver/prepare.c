@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Making a case ready to run (the first half of run.h), and explaining it.
+ */
+#include "run.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/progress.h"
+#include "time_step.h"
+#include "wave.h"
+
+#include <math.h>
+#include <omp.h>
+#include <string.h>
+
+static void check_word(struct kr_deck *deck, const int *field, const char *words,
+                       const char *in_file) {
+    char in_deck[32];
+    kr_case_word(words, *field, in_deck);
+    if (strcmp(in_deck, in_file))
+        kr_deck_fault(deck, field,
+                      "found '%s', but the node file was made for '%s'; run kirsch-nodes again",
+                      in_deck, in_file);
+}
+
+/* The surface factors belong to one horizon, model and weight: others would be wrong in silence. */
+static void check_made_for(struct kr_deck *deck, const struct kr_case *c,
+                           const struct kr_nodes *nodes) {
+    const struct kr_nodes_made_for *made = &nodes->made_for;
+    if (fabs(made->horizon / c->horizon - 1) > 1e-12)
+        kr_deck_fault(deck, &c->horizon,
+                      "found %g m, but the node file was made for %g m; run kirsch-nodes again",
+                      c->horizon, made->horizon);
+    check_word(deck, &c->partial_volume, KR_PARTIAL_VOLUME_WORDS, made->partial_volume);
+    check_word(deck, &c->surface_correction, KR_SURFACE_WORDS, made->surface_correction);
+    if (c->surface_correction == KR_SURFACE_NONE)
+        return;
+    check_word(deck, &c->model, KR_MODEL_WORDS, made->model);
+    check_word(deck, &c->surface_deformation, KR_DEFORMATION_WORDS, made->deformation);
+}
+
+static void mark_no_fail(const struct kr_case *c, const struct kr_nodes *nodes,
+                         struct kr_bonds *bonds) {
+    const char *const *name = c->no_fail.item;
+    for (size_t k = 0; k < c->no_fail.count; k++) {
+        const struct kr_set *set = kr_nodes_set(nodes, name[k]);
+        for (size_t m = 0; m < set->count; m++)
+            bonds->no_fail[set->node[m]] = 1;
+    }
+}
+
+/* dt as the deck gives it, or the safe one, shortened a little so that whole steps reach the end. */
+static void choose_time_step(struct kr_run *run, struct kr_deck *deck) {
+    const struct kr_case *c = run->c;
+    struct kr_time_step found = kr_time_step_find(run->body, run->nodes->spacing);
+    double dt = c->time_step > 0 ? c->time_step : c->safety_factor * found.stable;
+    if (dt > found.stable)
+        kr_deck_fault(deck, &c->time_step,
+                      "found %.4g us, but steps above %.4g us are unstable; leave it out to have %.4g us",
+                      1e6 * dt, 1e6 * found.stable, 1e6 * c->safety_factor * found.stable);
+    run->steps = (long)ceil(c->end_time / dt * (1 - 1e-9));
+    run->dt = c->end_time / (double)run->steps;
+    kr_say("  time step %.5g us, %ld steps (stable below %.5g us by power iteration in %d rounds; "
+           "classical bound %.5g us, Courant %.5g us)",
+           1e6 * run->dt, run->steps, 1e6 * found.stable, found.iterations, 1e6 * found.classical,
+           1e6 * found.courant);
+}
+
+struct kr_run *kr_run_create(struct kr_deck *deck, const struct kr_case *c) {
+    struct kr_run *run = KR_NEW(struct kr_run, 1);
+    char *path = kr_case_file(c, "plate.nodes.h5");
+    *run = (struct kr_run){.c = c, .nodes = kr_nodes_read(path)};
+    struct kr_material material = kr_material_of(c);
+    check_made_for(deck, c, run->nodes);
+    kr_boundary_check(deck, c, run->nodes);
+    kr_deck_finish(deck);
+
+    double begun = kr_progress_clock();
+    run->bonds = kr_bonds_create(run->nodes, &material, c->partial_volume);
+    const struct kr_case_crack *crack = c->cracks.item;
+    for (size_t k = 0; k < c->cracks.count; k++)
+        run->precrack += kr_bonds_cut(run->bonds, crack[k].from, crack[k].to, c->count_precrack);
+    mark_no_fail(c, run->nodes, run->bonds);
+    run->body = kr_body_create(run->bonds);
+    run->boundary = kr_boundary_create(deck, c, run->nodes);
+    kr_deck_finish(deck);
+    struct kr_bonds_size size = kr_bonds_size(run->bonds);
+    kr_say("  %zu nodes, %zu bonds (%.1f a node), %zu cut by pre-cracks; families in %.2f s", run->nodes->n,
+           run->bonds->count / 2, (double)run->bonds->count / (double)run->nodes->n, run->precrack,
+           kr_progress_clock() - begun);
+    kr_say("  loop '%s' on %d threads, lanes filled to %.0f %%, %.0f %% of the slices on the lattice, "
+           "%.0f B a node", run->body->kernel->name, omp_get_max_threads(), 100 * size.lane_fill,
+           100 * size.lattice_share, (double)kr_memory_bytes() / (double)run->nodes->n);
+    choose_time_step(run, deck);
+    kr_deck_finish(deck);
+    kr_free(path);
+    return run;
+}
+
+void kr_run_free(struct kr_run *run) {
+    kr_boundary_free(run->boundary);
+    kr_body_free(run->body);
+    kr_bonds_free(run->bonds);
+    kr_nodes_free(run->nodes);
+    kr_free(run);
+}
+
+/* Seconds of one step, from a few. */
+static double step_time(struct kr_body *body) {
+    enum { TRIES = 5 };
+    double begun = kr_progress_clock();
+    for (int k = 0; k < TRIES; k++)
+        kr_body_force(body, 0);
+    return (kr_progress_clock() - begun) / TRIES;
+}
+
+void kr_run_explain(const struct kr_run *run) {
+    const struct kr_material *m = &run->bonds->material;
+    struct kr_wave wave =
+        kr_wave_speeds(m->youngs_modulus, m->poissons_ratio, m->density, (enum kr_model)m->model);
+    char model[32];
+    kr_case_word(KR_MODEL_WORDS, m->model, model);
+    kr_say("  law %s, %s: Poisson's ratio of the model %.4g, micromodulus c %.5g N/m^5", m->law->name,
+           model, m->poissons_ratio, m->micromodulus);
+    kr_say("  critical stretch s0 %.5g, horizon over spacing m = %.3g", m->critical_stretch,
+           m->horizon / run->nodes->spacing);
+    kr_say("  wave speeds: longitudinal %.1f, shear %.1f, Rayleigh %.1f m/s", wave.longitudinal,
+           wave.shear, wave.rayleigh);
+    kr_say("  memory %.0f MiB at the most; about %.0f s for %ld steps",
+           (double)kr_memory_peak() / 1048576, step_time(run->body) * 1.1 * (double)run->steps,
+           run->steps);
+}

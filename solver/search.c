@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Cell lists. Points are counted into square bins of the reach's width (a counting sort, so each
+ * bin holds its points in ascending order); the neighbours of a point lie in its bin and the 8
+ * (26 in 3D) around it.
+ */
+#include "search.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+
+#include <math.h>
+
+struct kr_search {
+    int dim;
+    const double *position;
+    double reach, lower[3];
+    long bins[3];   /* 1 where there is no such dimension */
+    size_t *first;  /* (number of bins + 1) */
+    int *member;    /* (n) points by bin */
+};
+
+static void bin_of(const struct kr_search *s, size_t i, long bin[3]) {
+    bin[2] = 0;
+    for (int d = 0; d < s->dim; d++)
+        bin[d] = (long)((s->position[i * (size_t)s->dim + (size_t)d] - s->lower[d]) / s->reach);
+}
+
+static size_t bin_number(const struct kr_search *s, const long bin[3]) {
+    return (size_t)((bin[2] * s->bins[1] + bin[1]) * s->bins[0] + bin[0]);
+}
+
+static void find_bounds(struct kr_search *s, size_t n) {
+    double upper[3] = {0};
+    for (int d = 0; d < s->dim; d++) {
+        s->lower[d] = INFINITY;
+        upper[d] = -INFINITY;
+        for (size_t i = 0; i < n; i++) {
+            double x = s->position[i * (size_t)s->dim + (size_t)d];
+            s->lower[d] = fmin(s->lower[d], x);
+            upper[d] = fmax(upper[d], x);
+        }
+    }
+    for (int d = 0; d < 3; d++)
+        s->bins[d] = d < s->dim && n ? (long)((upper[d] - s->lower[d]) / s->reach) + 1 : 1;
+}
+
+struct kr_search *kr_search_create(int dim, size_t n, const double *position, double reach) {
+    kr_assert(reach > 0 && (dim == 2 || dim == 3));
+    struct kr_search *s = KR_NEW(struct kr_search, 1);
+    *s = (struct kr_search){.dim = dim, .position = position, .reach = reach};
+    find_bounds(s, n);
+    size_t bins = (size_t)(s->bins[0] * s->bins[1] * s->bins[2]);
+    s->first = KR_NEW(size_t, bins + 1);
+    s->member = KR_NEW(int, n);
+    long bin[3];
+    for (size_t i = 0; i < n; i++) {
+        bin_of(s, i, bin);
+        s->first[bin_number(s, bin) + 1]++;
+    }
+    for (size_t b = 0; b < bins; b++)
+        s->first[b + 1] += s->first[b];
+    size_t *next = KR_NEW(size_t, bins);
+    for (size_t b = 0; b < bins; b++)
+        next[b] = s->first[b];
+    for (size_t i = 0; i < n; i++) {
+        bin_of(s, i, bin);
+        s->member[next[bin_number(s, bin)]++] = (int)i;
+    }
+    kr_free(next);
+    return s;
+}
+
+void kr_search_free(struct kr_search *s) {
+    kr_free(s->first);
+    kr_free(s->member);
+    kr_free(s);
+}
+
+static void sort_ascending(int *a, size_t n) {
+    for (size_t k = 1; k < n; k++) {
+        int value = a[k];
+        size_t m = k;
+        for (; m > 0 && a[m - 1] > value; m--)
+            a[m] = a[m - 1];
+        a[m] = value;
+    }
+}
+
+size_t kr_search_near(const struct kr_search *s, size_t i, int *near, size_t room) {
+    size_t found = 0, dim = (size_t)s->dim;
+    const double *here = s->position + i * dim;
+    long at[3], bin[3];
+    bin_of(s, i, at);
+    long deep = dim == 3;
+    for (bin[2] = at[2] - deep; bin[2] <= at[2] + deep; bin[2]++)
+        for (bin[1] = at[1] - 1; bin[1] <= at[1] + 1; bin[1]++)
+            for (bin[0] = at[0] - 1; bin[0] <= at[0] + 1; bin[0]++) {
+                if (bin[0] < 0 || bin[1] < 0 || bin[2] < 0 || bin[0] >= s->bins[0] ||
+                    bin[1] >= s->bins[1] || bin[2] >= s->bins[2])
+                    continue;
+                size_t b = bin_number(s, bin);
+                for (size_t k = s->first[b]; k < s->first[b + 1]; k++) {
+                    size_t j = (size_t)s->member[k];
+                    double square = 0;
+                    for (size_t d = 0; d < dim; d++)
+                        square += (s->position[j * dim + d] - here[d]) *
+                                  (s->position[j * dim + d] - here[d]);
+                    if (square > s->reach * s->reach || j == i)
+                        continue;
+                    if (found < room)
+                        near[found] = (int)j;
+                    found++;
+                }
+            }
+    if (found <= room)
+        sort_ascending(near, found);
+    return found;
+}

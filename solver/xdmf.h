@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * XDMF: the text beside run.h5 that lets ParaView open it.
+ */
+#ifndef KR_XDMF_H
+#define KR_XDMF_H
+
+#include "nodes.h"
+
+/** An output that stands in the results file. */
+struct kr_xdmf_step {
+    long step;
+    double time; /* s */
+};
+
+/** Write the sidecar of a results file; appears whole or not at all.
+ *
+ *  in  path       of the sidecar
+ *  in  results    name of the HDF5 file, beside it
+ *  in  corners    length of /mesh/topology
+ *  Stops (exit 3) where it cannot be written.
+ */
+void kr_xdmf_write(const char *path, const char *results, const struct kr_nodes *nodes,
+                   size_t corners, size_t n_steps, const struct kr_xdmf_step *step);
+
+#endif
