@@ -132,6 +132,10 @@ void kr_output_write(struct kr_output *o, const struct kr_body *body,
     write_fields(o, body, ledger, group);
     write_crack(o, crack);
     kr_h5_set_int64(o->file, "/", "steps", step);
+    kr_h5_set_double(o->file, "/", "external_work", ledger->external);
+    kr_h5_set_double(o->file, "/", "kinetic_energy", ledger->kinetic);
+    kr_h5_set_double(o->file, "/", "strain_energy", ledger->strain);
+    kr_h5_set_double(o->file, "/", "fracture_work", ledger->fracture);
     kr_h5_flush(o->file);
     KR_GROW(o->step, o->n_steps, o->room);
     o->step[o->n_steps++] = (struct kr_xdmf_step){step, t};
@@ -140,11 +144,7 @@ void kr_output_write(struct kr_output *o, const struct kr_body *body,
     kr_free(group);
 }
 
-void kr_output_close(struct kr_output *o, const struct kr_ledger *ledger, long steps) {
-    kr_h5_set_double(o->file, "/", "external_work", ledger->external);
-    kr_h5_set_double(o->file, "/", "kinetic_energy", ledger->kinetic);
-    kr_h5_set_double(o->file, "/", "strain_energy", ledger->strain);
-    kr_h5_set_double(o->file, "/", "fracture_work", ledger->fracture);
+void kr_output_close(struct kr_output *o, long steps) {
     kr_h5_set_int64(o->file, "/", "steps", steps);
     kr_h5_set_int64(o->file, "/", "finished", 1);
     kr_h5_flush(o->file);
