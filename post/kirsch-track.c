@@ -80,5 +80,7 @@ int main(int argc, char **argv) {
     else
         track_run(&c);
     kr_deck_close(deck);
+    kr_free(arguments.set);
+    kr_free(arguments.left);
     return KR_EXIT_OK;
 }

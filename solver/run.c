@@ -47,7 +47,7 @@ static struct records records_open(struct kr_run *run, const char *deck_text) {
 }
 
 static void records_close(struct records *r, long steps) {
-    kr_output_close(r->output, r->ledger, steps);
+    kr_output_close(r->output, steps);
     kr_history_close(r->history);
     kr_crack_free(r->crack);
     kr_ledger_free(r->ledger);
