@@ -15,13 +15,7 @@ static const char usage[] =
     "kirsch-pores case.yaml\n"
     "\n"
     "Places the random pores of the deck's geometry.pores and writes pores.txt into the case's\n"
-    "folder. The same seed gives the same pores everywhere.\n"
-    "\n"
-    "  --variant NAME     a variant of the deck\n"
-    "  --set KEY=VALUE    a value over the deck's, any number of times\n"
-    "  --output FOLDER    the case's folder\n"
-    "  --check            check the deck, do nothing else\n"
-    "  --explain          say what would be done\n";
+    "folder. The same seed gives the same pores everywhere.";
 
 static double porosity_of(const struct kr_case *c, const struct kr_case_hole *hole, size_t count) {
     double area = 0;
