@@ -4,7 +4,6 @@
  */
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/unit.h"
 #include "case.h"
 #include "mesh.h"
 #include "plate.h"
@@ -28,8 +27,6 @@ int main(int argc, char **argv) {
     if (arguments.n_left)
         kr_stop(KR_EXIT_INPUT, "unknown argument %s; see --help", arguments.left[0]);
     struct kr_deck *deck = kr_case_open(&arguments, &c);
-    if (arguments.check)
-        return 0;
 
     struct kr_plate plate = {.width = c.width,
                              .height = c.height,
@@ -56,5 +53,7 @@ int main(int argc, char **argv) {
     kr_plate_report_free(&report);
     kr_free(hole);
     kr_deck_close(deck);
+    kr_free(arguments.set);
+    kr_free(arguments.left);
     return 0;
 }
