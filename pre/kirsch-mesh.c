@@ -4,7 +4,6 @@
  */
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/unit.h"
 #include "case.h"
 #include "mesh.h"
 #include "plate.h"
@@ -50,5 +49,7 @@ int main(int argc, char **argv) {
     kr_plate_report_free(&report);
     kr_free(hole);
     kr_deck_close(deck);
+    kr_free(arguments.set);
+    kr_free(arguments.left);
     return 0;
 }
