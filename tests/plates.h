@@ -67,6 +67,36 @@ static inline struct kr_nodes *kr_plate_porous(size_t columns, size_t rows, doub
     return nodes;
 }
 
+/** A block of cubes; those in its upper half are moved and hold unequal volumes, as above. */
+static inline struct kr_nodes *kr_plate_block(size_t columns, size_t rows, size_t layers,
+                                              double spacing, uint64_t seed) {
+    struct kr_nodes *nodes = kr_nodes_create(3, columns * rows * layers);
+    nodes->spacing = spacing;
+    for (size_t i = 0; i < nodes->n; i++) {
+        size_t place[3] = {i % columns, i / columns % rows, i / columns / rows};
+        double jitter = 2 * place[2] >= layers ? 0.2 * spacing : 0;
+        for (size_t d = 0; d < 3; d++)
+            nodes->position[3 * i + d] =
+                ((double)place[d] + 0.5) * spacing + kr_random(&seed, -jitter, jitter);
+        double share = jitter > 0 ? kr_random(&seed, 0.6, 1.4) : 1;
+        nodes->volume[i] = share * pow(spacing, 3);
+    }
+    return nodes;
+}
+
+/** Factors as the surface correction may give, but random. */
+static inline void kr_plate_random_factors(struct kr_nodes *nodes, uint64_t seed) {
+    for (size_t i = 0; i < nodes->n; i++)
+        nodes->factor[i] = kr_random(&seed, 0.8, 1.5);
+}
+
+/** Move every node of a body by up to `size` [m] a component. */
+static inline void kr_plate_shake(struct kr_body *body, double size, uint64_t seed) {
+    for (int d = 0; d < body->dim; d++)
+        for (size_t i = 0; i < body->n; i++)
+            body->u[d][i] = kr_random(&seed, -size, size);
+}
+
 /** Node of a lattice nearest to its middle, from below. */
 static inline size_t kr_plate_middle(size_t columns, size_t rows) {
     return (rows - 1) / 2 * columns + (columns - 1) / 2;
