@@ -43,19 +43,19 @@ static inline struct kr_nodes *kr_plate_lattice(size_t columns, size_t rows, dou
 }
 
 /** A lattice without the nodes nearer than `radius` to its middle; those up to twice as far are
- * moved by up to 0.3 spacings a component and hold 0.6 to 1.4 of a cell's area; tag: place in the
- * lattice, from 1. The lattice's rows keep their order. */
+ * moved by up to `disorder` spacings a component and hold 1 -+ `disorder` of a cell's area. tag:
+ * place in the lattice, from 1. */
 static inline struct kr_nodes *kr_plate_porous(size_t columns, size_t rows, double spacing,
-                                               double radius, uint64_t seed) {
+                                               double radius, double disorder, uint64_t seed) {
     struct kr_nodes *nodes = kr_plate_lattice(columns, rows, spacing);
     const double middle[2] = {0.5 * (double)columns * spacing, 0.5 * (double)rows * spacing};
     size_t kept = 0;
     for (size_t i = 0; i < columns * rows; i++) {
         double x = nodes->position[2 * i], y = nodes->position[2 * i + 1];
         double distance = hypot(x - middle[0], y - middle[1]);
-        double jitter = distance < 2 * radius ? 0.3 * spacing : 0;
+        double jitter = distance < 2 * radius ? disorder * spacing : 0;
         double dx = kr_random(&seed, -jitter, jitter), dy = kr_random(&seed, -jitter, jitter);
-        double share = kr_random(&seed, 0.6, 1.4);
+        double share = kr_random(&seed, 1 - disorder, 1 + disorder);
         if (distance < radius)
             continue;
         nodes->position[2 * kept] = x + dx;
@@ -67,7 +67,8 @@ static inline struct kr_nodes *kr_plate_porous(size_t columns, size_t rows, doub
     return nodes;
 }
 
-/** A block of cubes; those in its upper half are moved and hold unequal volumes, as above. */
+/** A block of cubes; those in its upper half are moved by up to 0.2 spacings and hold 0.6 to 1.4 of
+ * a cube's volume. */
 static inline struct kr_nodes *kr_plate_block(size_t columns, size_t rows, size_t layers,
                                               double spacing, uint64_t seed) {
     struct kr_nodes *nodes = kr_nodes_create(3, columns * rows * layers);

@@ -27,7 +27,7 @@ struct plate {
 static struct plate plate_make(int partial_volume) {
     struct plate p = {.partial_volume = partial_volume};
     struct kr_material material = kr_pmma(KR_PLANE_STRESS, HORIZON);
-    p.nodes = kr_plate_porous(COLUMNS, ROWS, SPACING, 5.3 * SPACING, 11);
+    p.nodes = kr_plate_porous(COLUMNS, ROWS, SPACING, 5.3 * SPACING, 0.3, 11);
     p.bonds = kr_bonds_create(p.nodes, &material, partial_volume);
     p.seen = KR_NEW(unsigned char, p.nodes->n *p.nodes->n);
     return p;

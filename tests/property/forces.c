@@ -34,7 +34,8 @@ static struct kr_material material_of(const struct kr_law *law) {
 static struct subject plate(const struct kr_law *law, int corrected) {
     const double from[2] = {-1e-3, 1.7e-3}, to[2] = {1.5e-3, 1.6e-3};
     struct kr_material material = material_of(law);
-    struct kr_nodes *nodes = kr_plate_porous(53, 37, SPACING, 5.3 * SPACING, 3);
+    struct kr_nodes *nodes =
+        kr_plate_porous(53, 37, SPACING, 5.3 * SPACING, corrected ? 0.1 : 0.3, 3);
     if (corrected)
         kr_surface_correct(nodes, &material, KR_PARTIAL_VOLUME_HHB, KR_ISOTROPIC);
     else
@@ -105,15 +106,18 @@ static void turn(struct kr_body *body, double angle) {
 /* Displacements of some 4 mm are rounded to 4e-19 m and bonds are 0.05 mm or longer: stretches are
  * wrong by 2e-14 at the most, and so is the force, of that under a strain of 1. */
 static void check_rotation(struct subject *s) {
+    const double angle[2] = {0.1, 0.77};
     for (size_t i = 0; i < s->body->n; i++)
         s->body->u[0][i] = 1e-6 * s->bonds->x[0][i], s->body->u[1][i] = 0;
     kr_body_force(s->body, 0);
     double stretched = largest_force(s->body) / 1e-6;
-    turn(s->body, 0.77);
-    kr_body_force(s->body, 0);
-    kr_figure("%s turned by 0.77: force %.1e of that under a strain of 1", s->name,
-              largest_force(s->body) / stretched);
-    kr_check_near(largest_force(s->body) / stretched, 0, 2e-14);
+    for (int k = 0; k < 2; k++) {
+        turn(s->body, angle[k]);
+        kr_body_force(s->body, 0);
+        kr_figure("%s turned by %g: force %.1e of that under a strain of 1", s->name, angle[k],
+                  largest_force(s->body) / stretched);
+        kr_check_near(largest_force(s->body) / stretched, 0, 2e-14);
+    }
 }
 
 static void test_no_force_under_rotation(void **state) {

@@ -70,7 +70,7 @@ static size_t flagged(const struct kr_body *body) {
 }
 
 static struct kr_nodes *make_nodes(int dim) {
-    struct kr_nodes *nodes = dim == 2 ? kr_plate_porous(61, 43, SPACING, 5.3 * SPACING, 3)
+    struct kr_nodes *nodes = dim == 2 ? kr_plate_porous(61, 43, SPACING, 5.3 * SPACING, 0.3, 3)
                                       : kr_plate_block(19, 13, 17, SPACING, 3);
     kr_plate_random_factors(nodes, 7);
     return nodes;
