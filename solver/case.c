@@ -194,6 +194,10 @@ static const struct kr_deck_key track_keys[] = {
 
 const struct kr_deck_key kr_case_keys[] = {
     {"title", KR_DECK_TEXT, AT(title), .fallback = "", .text = "A line for people."},
+    {"preset", KR_DECK_CHOICE, AT(preset), .words = KR_PRESET_WORDS, .fallback = "none",
+     .text = "Choices in one word, for keys that the deck does not give itself. `plates-paper`: as in "
+             "the plates paper, `grid: near-boundary`, `partial_volume: hhb-one-sided`, "
+             "`surface_correction: energy`, `surface_deformation: uniaxial-y`."},
     {"no_fail", KR_DECK_TEXTS, AT(no_fail), .fallback = "",
      .text = "Names of sets whose bonds never break, such as those that carry the load."},
     {"geometry", KR_DECK_SECTION, .keys = geometry_keys, .text = "The plate and its holes."},

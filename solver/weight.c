@@ -104,9 +104,9 @@ static struct kr_disc_part part_of(const struct kr_weights *w, size_t i, size_t 
     return part;
 }
 
-/* The bond's weight from what each end sees of the other: the mean of both, (10a); with the centroids
- * of the parts, the mean moment over the bond's length, (10b). Sums and differences of two numbers:
- * the same bits from both ends. */
+/* The bond's weight from what each end sees of the other: the mean of both, (10a); with the
+ * centroids of the parts, the mean moment over the bond's length, (10b). Sums and differences of
+ * two numbers: the same bits from both ends. */
 static double weight_of(int partial_volume, const struct kr_disc_part *there,
                         const struct kr_disc_part *back, double distance) {
     double phi = 0.5 * (there->area + back->area);
@@ -153,7 +153,8 @@ double kr_weight_lattice(int partial_volume, int dim, const double *xi, double h
     return weight_of(partial_volume, &there, &back, distance);
 }
 
-/* The area is known to be spacing^2: if no corner is outside of the square, the cell is the square. */
+/* The area is known to be spacing^2: if no corner is outside of the square, the cell is the square.
+ */
 int kr_weights_is_square(const struct kr_weights *w, size_t i, double spacing) {
     if (!w->radius)
         return 1;
