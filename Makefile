@@ -78,7 +78,7 @@ $(BUILD)/libkirsch.a: $(library_o) $(kernel_o)
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
 	@echo "  cc    $<"
-	$(Q)$(CC) $(ALL_FLAGS) -DKR_VERSION='"$(VERSION)"' -DKR_SHARE='"$(PREFIX)/share/kirsch"' -c $< -o $@
+	$(Q)$(CC) $(ALL_FLAGS) -DKR_VERSION='"$(VERSION)"' -c $< -o $@
 
 $(BUILD)/%.py: post/%.py
 	@mkdir -p $(@D)
@@ -104,7 +104,7 @@ $(BUILD)/tests/%: tests/%.c tests/test.h $(BUILD)/libkirsch.a
 # ---- running --------------------------------------------------------------------------------
 demo: deps
 	@$(MAKE) --no-print-directory all
-	@$(BUILD)/kirsch cases/demo/case.yaml $(if $(FULL),--variant full --output out/demo-full)
+	@$(BUILD)/kirsch cases/demo/case.yaml $(if $(FULL),--variant full)
 
 test: deps
 	@$(MAKE) --no-print-directory all $(tests)

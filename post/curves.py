@@ -3,7 +3,7 @@
 import numpy as np
 
 from maps import outline_holes, paint, panels, save, show
-from results import Fault, read_csv
+from results import Nothing, read_csv
 from style import COLOURS, DAMAGE, box_label, open_axes, plt
 
 SMOOTH = 15  # moves of the tip
@@ -13,7 +13,7 @@ def tips_by_box(case):
     """List of (box, columns of tips.csv in mm and us)."""
     tips = read_csv(case.path("tips.csv"))
     if not len(tips["box"]):
-        raise Fault("there is no crack tip in %s" % case.path("tips.csv"))
+        raise Nothing("there is no crack tip in %s" % case.path("tips.csv"))
     result = []
     for box in np.unique(tips["box"]):
         rows = tips["box"] == box
@@ -34,16 +34,17 @@ def holes_on_path(case, tips):
 def smooth(values):
     """Moving mean over the values there are; the tip moves by whole cells, so they scatter."""
     known = np.isfinite(values)
-    window = np.ones(SMOOTH)
-    total = np.convolve(np.where(known, values, 0), window, "same")
-    count = np.convolve(known.astype(float), window, "same")
+    window, middle = np.ones(SMOOTH), slice(SMOOTH // 2, SMOOTH // 2 + len(values))
+    total = np.convolve(np.where(known, values, 0), window)[middle]
+    count = np.convolve(known.astype(float), window)[middle]
     return np.where(known, total / np.maximum(count, 1), np.nan)
 
 
-def broken(x, values, tip, jump):
-    """The curve with a gap where the tip moved by more than `jump` at once."""
-    after = np.flatnonzero(np.hypot(np.diff(tip["x"]), np.diff(tip["y"])) > jump) + 1
-    return np.insert(x, after, np.nan), np.insert(values, after, np.nan)
+def pieces(tip, jump):
+    """Slices of the tip's way between moves of more than `jump` at once."""
+    moved = np.hypot(np.diff(tip["x"]), np.diff(tip["y"]))
+    ends = [0, *(np.flatnonzero(moved > jump) + 1), len(tip["x"])]
+    return [slice(a, b) for a, b in zip(ends[:-1], ends[1:])]
 
 
 def speed(case):
@@ -61,9 +62,12 @@ def speed(case):
     jump = 1e3 * case.run().attrs["horizon"]
     for box, t in tips:
         colour = COLOURS[(box - 1) % len(COLOURS)]
-        over.plot(*broken(t["x"], t["speed"], t, jump), color=colour, linewidth=0.4, alpha=0.45)
-        over.plot(*broken(t["x"], smooth(t["speed"]), t, jump), color=colour, linewidth=1.4,
-                  label=box_label(box, tips))
+        label = box_label(box, tips)
+        for some in pieces(t, jump):
+            x, values = t["x"][some], t["speed"][some]
+            over.plot(x, values, color=colour, linewidth=0.4, alpha=0.45)
+            over.plot(x, smooth(values), color=colour, linewidth=1.4, label=label)
+            label = None
     highest = max(np.nanmax(np.append(t["speed"], 0)) for _, t in tips)
     over.set_ylim(0, max(1, 1.08 * highest))
     over.set_ylabel("crack speed / Rayleigh speed")

@@ -20,21 +20,19 @@ static const char usage[] = "kirsch-plot case.yaml [PICTURE]...\n"
                             "\n"
                             "Draws into the folder `pictures` of the case's folder: grid, damage, "
                             "energy, speed, tip, history\n"
-                            "(PNG) and crack (MP4, by ffmpeg). Without names, all of them.\n"
-                            "\n"
-                            "  --variant NAME     a variant of the deck\n"
-                            "  --set KEY=VALUE    a value over the deck's, any number of times\n"
-                            "  --output FOLDER    the case's folder\n"
-                            "  --check            check the deck, do nothing else\n"
-                            "  --explain          say what would be done\n";
+                            "(PNG) and crack (MP4, by ffmpeg). Without names, all of them.";
 
-/** Path of plot.py, owned by the caller. */
+/** Path of plot.py, owned by the caller: beside this program (in the build) or in ../share/kirsch
+ *  (installed). */
 static char *find_script(void) {
     char self[PATH_MAX];
     ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
-    char *beside, *installed = kr_text("%s/plot.py", KR_SHARE);
+    const char *folder;
+    char *beside, *installed;
     self[length > 0 ? length : 0] = 0;
-    beside = kr_text("%s/plot.py", dirname(self));
+    folder = dirname(self);
+    beside = kr_text("%s/plot.py", folder);
+    installed = kr_text("%s/../share/kirsch/plot.py", folder);
     if (access(beside, R_OK) == 0) {
         kr_free(installed);
         return beside;
@@ -42,7 +40,7 @@ static char *find_script(void) {
     if (access(installed, R_OK) != 0)
         kr_stop(KR_EXIT_LIBRARY,
                 "plot.py is missing: it lies neither at %s nor at %s; run make "
-                "again",
+                "or make install again",
                 beside, installed);
     kr_free(beside);
     return installed;
@@ -79,7 +77,9 @@ int main(int argc, char **argv) {
     deck = kr_case_open(&arguments, &c);
     if (!arguments.explain)
         hand_over(&c, &arguments);
-    kr_say("would draw into %s", kr_case_file(&c, "pictures"));
+    kr_say("would draw into %s/pictures", c.folder);
     kr_deck_close(deck);
+    kr_free(arguments.set);
+    kr_free(arguments.left);
     return KR_EXIT_OK;
 }

@@ -10,20 +10,34 @@ from style import DAMAGE, DPI, ENERGY, WIDTH, plt
 _rasters = {}
 
 
+def rows_of(case, columns):
+    """Rows of a picture of the whole plate that is `columns` pixels wide."""
+    lower, upper = case.box()
+    return max(2, round(columns * (upper[1] - lower[1]) / (upper[0] - lower[0])))
+
+
 def picture_of(case, columns):
-    """The cell at each pixel of the whole plate, `columns` wide; kept for the next picture."""
+    """The cell at each sample of the whole plate, and the samples along a pixel, of which cells
+    smaller than a pixel need several. Kept for the next picture."""
     if columns not in _rasters:
         lower, upper = case.box()
-        rows = max(2, round(columns * (upper[1] - lower[1]) / (upper[0] - lower[0])))
-        point, first, vertex = case.cells()[:3]
-        _rasters[columns] = raster(point, first, vertex, lower, upper, (rows, columns))
+        point, first, vertex, _, spacing = case.cells()
+        pixel = (upper[0] - lower[0]) / columns
+        fine = int(np.clip(np.ceil(1.5 * pixel / spacing), 1, 4))
+        shape = fine * rows_of(case, columns), fine * columns
+        _rasters[columns] = raster(point, first, vertex, lower, upper, shape), fine
     return _rasters[columns]
 
 
 def paint(case, values, columns):
-    """Pixels of a field, masked where there is no material."""
-    cell = picture_of(case, columns)
-    return np.ma.masked_array(values[cell], cell < 0)
+    """Pixels of a field: means over their samples, masked where there is no material."""
+    cell, fine = picture_of(case, columns)
+    there = cell >= 0
+    total, count = np.where(there, values[cell], 0), there
+    if fine > 1:
+        blocks = len(cell) // fine, fine, columns, fine
+        total, count = (x.reshape(blocks).sum(axis=(1, 3)) for x in (total, there))
+    return np.ma.masked_array(total / np.maximum(count, 1), count == 0)
 
 
 def show(axes, case, pixels, colours, limit):
@@ -64,7 +78,7 @@ def panels(case, count):
     left, right, gap, top, bottom, between, all_wide = (
         round(DPI * inches) for inches in (0.5, 0.75, 0.3, 0.22, 0.42, 0.27, WIDTH))
     wide = (all_wide - left - right - gap * (columns - 1)) // columns
-    high = len(picture_of(case, wide))
+    high = rows_of(case, wide)
     total = np.array([all_wide, top + bottom + rows * high + (rows - 1) * between])
     figure = plt.figure(figsize=total / DPI, dpi=DPI)
 

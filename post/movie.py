@@ -10,7 +10,7 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 from matplotlib import font_manager
 
-from maps import chosen_steps, energy_limit, picture_of
+from maps import chosen_steps, energy_limit, paint, rows_of
 from results import warn
 from style import DAMAGE, ENERGY, plt
 
@@ -24,7 +24,7 @@ def background(case, limit):
     lower, upper = case.box()
     left, right, top, bottom, between, wide = (
         round(DPI * inches) for inches in (0.55, 0.85, 0.3, 0.45, 0.12, 6))
-    high = len(picture_of(case, wide))
+    high = rows_of(case, wide)
     total = np.array([left + wide + right, top + 2 * high + between + bottom])
     total += total % 2  # encoders want even numbers of pixels
     figure = plt.figure(figsize=total / DPI, dpi=DPI)
@@ -47,19 +47,18 @@ def background(case, limit):
     return frame, places
 
 
-def colour(values, cell, colours, limit):
-    """Pixels (rows, columns, 3) of a field; white where there is no material."""
+def colour(field, colours, limit):
+    """Pixels (rows, columns, 3) of a painted field; white where there is no material."""
     table = (255 * colours(np.arange(256))[:, :3]).round().astype(np.uint8)
-    level = np.clip(values * (256 / limit), 0, 255).astype(np.uint8)
-    pixels = table[level[cell]]
-    pixels[cell < 0] = 255
-    pixels[rims(cell)] = 90
+    hole = np.ma.getmaskarray(field)
+    pixels = table[np.clip(field.data * (256 / limit), 0, 255).astype(np.uint8)]
+    pixels[hole] = 255
+    pixels[rims(hole)] = 90
     return pixels[::-1]
 
 
-def rims(cell):
+def rims(hole):
     """Pixels of holes that touch material."""
-    hole = cell < 0
     touch = np.zeros_like(hole)
     touch[1:] |= ~hole[:-1]
     touch[:-1] |= ~hole[1:]
@@ -79,13 +78,14 @@ def paste(frame, pixels, place):
 def frames(case, limit):
     """Yield the frames as bytes; the first item is (columns, rows)."""
     frame, places = background(case, limit)
-    cell = picture_of(case, places[0][2])
     font = ImageFont.truetype(font_manager.findfont("DejaVu Sans"), round(0.12 * DPI))
     yield frame.shape[1], frame.shape[0]
     for step, time in zip(*case.steps()):
-        paste(frame, colour(case.field(step, "Damage"), cell, DAMAGE, 1), places[0])
-        energy = 1e-3 * case.field(step, "Stored_Elastic_Energy_Density")
-        paste(frame, colour(energy, cell, ENERGY, limit), places[1])
+        for place, name, scale, colours, most in (
+                (places[0], "Damage", 1, DAMAGE, 1),
+                (places[1], "Stored_Elastic_Energy_Density", 1e-3, ENERGY, limit)):
+            field = paint(case, scale * case.field(step, name), place[2])
+            paste(frame, colour(field, colours, most), place)
         image = Image.fromarray(frame)
         ImageDraw.Draw(image).text((places[0][0], 0.09 * DPI), "t = %.1f µs" % time, (0, 0, 0),
                                    font)

@@ -9,7 +9,7 @@ import os
 import sys
 
 try:
-    from results import Case, Fault
+    from results import Case, Fault, Nothing, warn
     import curves
     import maps
     import movie
@@ -55,6 +55,9 @@ def draw_all(case, names):
     for name in names:
         try:
             path = PICTURES[name](case)
+        except Nothing as reason:
+            warn("no picture `%s`: %s" % (name, reason))
+            continue
         except Fault as fault:
             print("kirsch-plot: no picture `%s`: %s" % (name, fault), file=sys.stderr)
             complete = False

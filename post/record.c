@@ -30,6 +30,10 @@ static void read_attributes(const struct kr_h5 *file, struct kr_record *record) 
     record->steps = kr_h5_get_int64(file, "/", "steps");
     record->finished = kr_h5_get_int64(file, "/", "finished") != 0;
     record->bonds = kr_h5_get_int64(file, "/", "bonds");
+    record->external_work = kr_h5_get_double(file, "/", "external_work");
+    record->kinetic_energy = kr_h5_get_double(file, "/", "kinetic_energy");
+    record->strain_energy = kr_h5_get_double(file, "/", "strain_energy");
+    record->fracture_work = kr_h5_get_double(file, "/", "fracture_work");
 }
 
 /** Places are finite; times are -1, within the run or infinite. */

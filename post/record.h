@@ -20,6 +20,7 @@ struct kr_record {
     double rayleigh_speed;   /* m/s */
     int64_t bonds;           /* there were, in pairs */
     size_t broken;           /* bonds, without those of the pre-crack */
+    double external_work, kinetic_energy, strain_energy, fracture_work; /* J/m, last output */
     double first_break;      /* s; infinite: none broke */
 };
 

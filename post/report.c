@@ -94,6 +94,17 @@ static void put_track(FILE *file, const struct kr_report *report, size_t box) {
 #undef ROW
 }
 
+/** Energies at the last output; the balance as a share of the work, 0 before there is any. */
+static void put_energies(FILE *file, const struct kr_record *record) {
+    double work = record->external_work;
+    double rest = work - record->kinetic_energy - record->strain_energy - record->fracture_work;
+    put(file, "external_work", work, "J/m");
+    put(file, "kinetic_energy", record->kinetic_energy, "J/m");
+    put(file, "strain_energy", record->strain_energy, "J/m");
+    put(file, "fracture_work", record->fracture_work, "J/m");
+    put(file, "energy_balance", work != 0 ? rest / fabs(work) : 0, "1");
+}
+
 void kr_report_summary(const struct kr_report *report, const char *path) {
     const struct kr_record *record = report->record;
     struct output output = begin(path);
@@ -109,6 +120,7 @@ void kr_report_summary(const struct kr_report *report, const char *path) {
     put(file, "broken_bonds", (double)record->broken, "1");
     put(file, "damaged_nodes", (double)report->branches.damaged, "1");
     put(file, "first_growth", record->first_break, "s");
+    put_energies(file, record);
     for (size_t box = 0; box < report->n_tracks; box++)
         put_track(file, report, box);
     if (report->branches.countable) {

@@ -12,6 +12,10 @@ class Fault(Exception):
     """What the user can cure: one sentence, then exit 2."""
 
 
+class Nothing(Exception):
+    """There is nothing to draw, and no fault in that: a plate that held has no crack tip."""
+
+
 def warn(sentence):
     sys.stdout.flush()
     print("kirsch-plot: warning: " + sentence, file=sys.stderr)

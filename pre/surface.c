@@ -100,8 +100,12 @@ static double dot(size_t n, const double *a, const double *b) {
 /* Largest |W_i/W0 - 1|, from the residual r_i = V_i (W0 - W_i). */
 static double worst_of(const struct problem *p, const double *residual, double reference) {
     double worst = 0;
-    for (size_t i = 0; i < p->body->n; i++)
-        worst = fmax(worst, fabs(residual[i] / (p->body->bonds->volume[i] * reference)));
+    for (size_t i = 0; i < p->body->n; i++) {
+        double off = fabs(residual[i] / (p->body->bonds->volume[i] * reference));
+        if (isnan(off)) /* fmax would pass over it */
+            return INFINITY;
+        worst = fmax(worst, off);
+    }
     return worst;
 }
 
@@ -116,7 +120,7 @@ static void solve(struct problem *p, double *lambda, struct kr_surface_report *r
         residual[i] = p->body->bonds->volume[i] * report->reference - image[i];
     }
     while ((report->residual = worst_of(p, residual, report->reference)) > TOLERANCE &&
-           report->iterations < MOST_ITERATIONS) {
+           isfinite(report->residual) && report->iterations < MOST_ITERATIONS) {
         for (size_t i = 0; i < n; i++)
             scaled[i] = residual[i] / p->diagonal[i];
         double now = dot(n, residual, scaled);
@@ -148,6 +152,25 @@ static void report_extremes(const struct kr_nodes *nodes, struct kr_surface_repo
     report->most = nodes->factor[report->most_at];
 }
 
+/* A node's factor may be negative, but no bond's mean of two: such a bond would push apart what it
+ * holds. Only nodes with a factor below zero can have one. */
+static void refuse_pushing(const struct kr_bonds *b) {
+    for (size_t i = 0; i < b->n; i++) {
+        if (b->factor[i] > 0)
+            continue;
+        struct kr_bond_walk walk = kr_bonds_walk(b, i / KR_LANES);
+        struct kr_bond bond;
+        while (kr_bonds_next(b, &walk, &bond))
+            if (bond.i == i && b->factor[i] + b->factor[bond.j] <= 0)
+                kr_stop(KR_EXIT_NUMBERS,
+                        "the surface factors %.3g and %.3g of the nodes at (%g, %g) and (%g, %g) m "
+                        "make their bond push: no positive factors give this place its energy. Take "
+                        "nodes.surface_deformation: mean-over-axes or isotropic, or a finer spacing",
+                        b->factor[i], b->factor[bond.j], b->x[0][i], b->x[1][i], b->x[0][bond.j],
+                        b->x[1][bond.j]);
+    }
+}
+
 struct kr_surface_report kr_surface_correct(struct kr_nodes *nodes,
                                             const struct kr_material *material, int partial_volume,
                                             int deformation) {
@@ -167,12 +190,9 @@ struct kr_surface_report kr_surface_correct(struct kr_nodes *nodes,
                 "nodes with few neighbours, or take surface_correction: none",
                 report.residual, report.iterations);
     report_extremes(nodes, &report);
-    if (!(report.least > 0))
-        kr_stop(KR_EXIT_NUMBERS,
-                "the surface factor of the node at (%g, %g) m is %g; a bond must not push apart what "
-                "it holds: take surface_deformation: isotropic, or a finer spacing there",
-                nodes->position[2 * report.least_at], nodes->position[2 * report.least_at + 1],
-                report.least);
+    for (size_t i = 0; i < nodes->n; i++)
+        bonds->factor[i] = nodes->factor[i];
+    refuse_pushing(bonds);
     kr_body_free(problem.body);
     kr_bonds_free(bonds);
     kr_free(problem.diagonal);

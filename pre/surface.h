@@ -26,7 +26,7 @@ struct kr_surface_report {
  *  in   partial_volume  enum kr_partial_volume
  *  in   deformation     enum kr_deformation
  *  out  nodes->factor
- *  Stops (exit 4) if it does not converge in 1000 iterations, or to a factor that is not positive.
+ *  Stops (exit 4) if it does not converge in 1000 iterations, or if a bond's mean factor is not positive.
  */
 struct kr_surface_report kr_surface_correct(struct kr_nodes *nodes,
                                             const struct kr_material *material, int partial_volume,

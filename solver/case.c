@@ -88,9 +88,11 @@ static const struct kr_deck_key nodes_keys[] = {
      .text = "`energy`: bonds near a surface are stiffened until the energy of a homogeneous "
              "deformation is right there too; `none`."},
     {"surface_deformation", KR_DECK_CHOICE, AT(surface_deformation),
-     .words = KR_DEFORMATION_WORDS, .fallback = "uniaxial-y",
-     .text = "The homogeneous deformation of the energy correction; take the direction of the "
-             "load."},
+     .words = KR_DEFORMATION_WORDS, .fallback = "mean-over-axes",
+     .text = "The homogeneous deformation of the energy correction. `mean-over-axes`: the mean of "
+             "both uniaxial strains, smooth and safe; `uniaxial-y`, `uniaxial-x`: the paper's, exact "
+             "for a load in that direction, but rough at its edges and impossible between close "
+             "holes; `isotropic`."},
     {"sets", LIST_OF(KR_DECK_MAP, struct kr_case_set, set_keys), .offset = AT(sets),
      .text = "Named sets of nodes, for loads and no-fail zones: `top: {within: 0.3 mm, of: top}` "
              "or `{lower: [0 mm, 0 mm], upper: [1 mm, 2 mm]}`."},

@@ -128,8 +128,8 @@ static char *fault_of_numbers(const struct kr_nodes *nodes) {
         if (!(nodes->volume[i] > 0) || !isfinite(nodes->volume[i]))
             return kr_text("node %zu (tag %lld) has the volume %g; expected a positive number", i,
                            (long long)nodes->tag[i], nodes->volume[i]);
-        if (!(nodes->factor[i] > 0) || !isfinite(nodes->factor[i]))
-            return kr_text("node %zu (tag %lld) has the surface factor %g; expected a positive one",
+        if (!isfinite(nodes->factor[i]))
+            return kr_text("node %zu (tag %lld) has the surface factor %g; expected a finite one",
                            i, (long long)nodes->tag[i], nodes->factor[i]);
     }
     return NULL;

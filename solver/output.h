@@ -23,7 +23,7 @@ void kr_output_write(struct kr_output *output, const struct kr_body *body,
                      const struct kr_ledger *ledger, const struct kr_crack *crack, long step,
                      double t);
 
-/** Note the energies at the end, mark the run as finished and close. */
-void kr_output_close(struct kr_output *output, const struct kr_ledger *ledger, long steps);
+/** Mark the run as finished and close. */
+void kr_output_close(struct kr_output *output, long steps);
 
 #endif

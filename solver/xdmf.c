@@ -12,7 +12,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* 2D vectors are shown as they are stored, two components; ParaView pads them. */
 static const struct {
     const char *name;
     int is_vector;
@@ -26,13 +25,8 @@ static const struct {
 static void write_field(FILE *file, const char *results, const struct kr_nodes *nodes, long step,
                         size_t f) {
     fprintf(file, "    <Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"Cell\">\n",
-            fields[f].name, fields[f].is_vector && nodes->dim == 3 ? "Vector"
-                            : fields[f].is_vector                ? "Matrix"
-                                                                 : "Scalar");
-    if (fields[f].is_vector)
-        fprintf(file, "     <DataItem Dimensions=\"%zu %d\"", nodes->n, nodes->dim);
-    else
-        fprintf(file, "     <DataItem Dimensions=\"%zu\"", nodes->n);
+            fields[f].name, fields[f].is_vector ? "Vector" : "Scalar");
+    fprintf(file, "     <DataItem Dimensions=\"%zu%s\"", nodes->n, fields[f].is_vector ? " 3" : "");
     fprintf(file,
             " NumberType=\"Float\" Precision=\"4\" Format=\"HDF\">%s:/step/%06ld/%s</DataItem>\n"
             "    </Attribute>\n",

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
  * Materials. A law says how hard a bond pulls at a stretch s and what energy it then holds; this is
- * all that a new material needs: one file like pmb.c and one line in the list of material.c. The
+ * all that a new material needs: one file like pmb.c and one line in laws.h. The
  * fast loop follows by itself, for it evaluates a polynomial fitted to the law (fit.h).
  */
 #ifndef KR_MATERIAL_H
@@ -41,7 +41,7 @@ struct kr_material {
     double critical_stretch; /* s0; infinite where it does not break */
 };
 
-/** Constants from the classical ones; theory.md (5) to (8), plates paper eq. 6 and 9.
+/** Constants from the classical ones; theory.md (5) and (6), plates paper eq. 6 and 9.
  *
  *    plane stress  nu = 1/3   c = 9 E/(pi delta^3)      s0 = sqrt(4 pi G0/(9 E delta))
  *    plane strain  nu = 1/4   c = 48 E/(5 pi delta^3)   s0 = sqrt(5 pi G0/(12 E delta))

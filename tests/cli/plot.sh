@@ -88,6 +88,18 @@ cut_run() {
     cp "$work/whole.h5" "$run/run.h5"
     return $result
 }
+# Nothing, or everything at once, is damaged in a copy of the run: sentences, not traces.
+with_damage() { # damage time, words of kirsch-track
+    cp "$run/run.h5" "$work/whole.h5"
+    /usr/bin/python3 -B -c "import sys, h5py
+with h5py.File(sys.argv[1], 'a') as f:
+    f['crack/Damage_Time'][:] = float(sys.argv[2])" "$run/run.h5" "$1"
+    stops 0 "$2" track && stops 0 '' plot speed tip damage
+    result=$?
+    cp "$work/whole.h5" "$run/run.h5"
+    track
+    return $result
+}
 no_gaps() { # every pixel of the plate belongs to a cell, and none of the hole does
     PYTHONPATH="$build" /usr/bin/python3 -B - "$run/plate.nodes.h5" <<'END'
 import sys, h5py, numpy as np
@@ -117,5 +129,7 @@ check refuses_an_unknown_picture stops 2 'unknown picture `dammage`' plot dammag
 check goes_on_without_ffmpeg without_ffmpeg
 check goes_on_without_tips without_tips
 check tells_a_cut_run cut_run
+check tells_that_nothing_broke with_damage inf 'none: no damage past the threshold'
+check tells_that_everything_broke with_damage 4e-6 'not to be counted: 100 % of all nodes'
 check fills_every_pixel no_gaps
 check refuses_an_unknown_argument stops 2 'unknown' "$build/kirsch-track" "$run/case.yaml" --fast

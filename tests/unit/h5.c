@@ -143,6 +143,8 @@ static int be_the_other_program(const char *file_name) {
     struct kr_h5 *file = kr_h5_open(file_name, "kirsch run", 1);
     double *times = kr_h5_read_double(file, "/crack/bond_time", 6, 0);
     puts(memcmp(times, numbers, sizeof numbers) ? "changed" : "as written");
+    kr_free(times);
+    kr_h5_close(file);
     return 0;
 }
 

@@ -371,6 +371,10 @@ static void write_record(const struct kr_record *r, const char *fault) {
     kr_h5_set_double(file, "/", "spacing", r->spacing);
     kr_h5_set_double(file, "/", "rayleigh_speed", r->rayleigh_speed);
     kr_h5_set_int64(file, "/", "bonds", 77);
+    kr_h5_set_double(file, "/", "external_work", 4);
+    kr_h5_set_double(file, "/", "kinetic_energy", 1);
+    kr_h5_set_double(file, "/", "strain_energy", 2.5);
+    kr_h5_set_double(file, "/", "fracture_work", 0.49);
     kr_h5_write_double(file, "/nodes/position", r->n, 2, r->position);
     if (strcmp(fault, "nan") == 0)
         r->damage_time[5] = NAN;
