@@ -295,8 +295,7 @@ static double pull_of(const struct kr_boundary *b, const struct load *load,
         double pull = moves ? volume * (density * (after - before) / kick - body->force[d][i])
                             : volume * value_of(&v, i);
         sum += pull;
-        /* A support that starts at once pulls through the first half step, at the mean velocity. */
-        *power += pull * (first && !moves ? before : 0.5 * (before + after));
+        *power += pull * (first ? before : 0.5 * (before + after));
     }
     return sum;
 }
