@@ -96,7 +96,7 @@ static void run_unstable(void *argument) {
                                       "{set: bottom, traction: [free, -1 MPa]}]\n");
     atexit(remove_folder);
     unstable.run->dt *= 1.1 / unstable.c.safety_factor;
-    kr_run_solve(unstable.run, "");
+    kr_run_solve(unstable.run, "", 0);
 }
 
 static void test_unstable_run_stops(void **state) {
