@@ -101,7 +101,7 @@ static void run_unstable(void *argument) {
 
 static void test_unstable_run_stops(void **state) {
     (void)state;
-    kr_check_stops(run_unstable, NULL, KR_EXIT_NUMBERS, "Likely cause: the time step");
+    kr_check_stops(run_unstable, NULL, KR_EXIT_NUMBERS, "there is more than twice the energy");
 }
 
 int main(void) {
