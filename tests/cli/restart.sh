@@ -6,7 +6,7 @@ prefix=restart
 . tests/cli/steps
 write_case
 often='solver.checkpoint_every=20 ms'
-slow='solver.time_step=8 ns' # many steps, so that there is time for 20 kills
+slow='solver.time_step=2 ns' # many steps, so that there is time for 20 kills
 
 # The undisturbed run, in the folder that all runs use in turn: its name is in the files.
 whole() {
@@ -41,7 +41,7 @@ killed() {
     kills=0
     while [ $kills -lt 20 ]; do
         go_on
-        sleep "0.$(od -An -N1 -tu1 /dev/urandom | awk '{ printf "%03d", 60 + $1 % 150 }')"
+        sleep "0.$(od -An -N1 -tu1 /dev/urandom | awk '{ printf "%03d", 40 + $1 % 110 }')"
         kill -9 $child 2>/dev/null || break
         wait $child 2>/dev/null
         kills=$((kills + 1))
