@@ -20,13 +20,7 @@ static const char usage[] = "kirsch-plot case.yaml [PICTURE]...\n"
                             "\n"
                             "Draws into the folder `pictures` of the case's folder: grid, damage, "
                             "energy, speed, tip, history\n"
-                            "(PNG) and crack (MP4, by ffmpeg). Without names, all of them.\n"
-                            "\n"
-                            "  --variant NAME     a variant of the deck\n"
-                            "  --set KEY=VALUE    a value over the deck's, any number of times\n"
-                            "  --output FOLDER    the case's folder\n"
-                            "  --check            check the deck, do nothing else\n"
-                            "  --explain          say what would be done\n";
+                            "(PNG) and crack (MP4, by ffmpeg). Without names, all of them.";
 
 /** Path of plot.py, owned by the caller: beside this program (in the build) or in ../share/kirsch
  *  (installed). */

@@ -13,13 +13,7 @@ static const char usage[] =
     "Reads run.h5 in the case's folder; follows the crack tip in each box of the deck "
     "(`track.boxes`;\n"
     "without any, in the whole plate along +x) and counts the branches. Writes tips.csv and\n"
-    "summary.csv there.\n"
-    "\n"
-    "  --variant NAME     a variant of the deck\n"
-    "  --set KEY=VALUE    a value over the deck's, any number of times\n"
-    "  --output FOLDER    the case's folder\n"
-    "  --check            check the deck, do nothing else\n"
-    "  --explain          say what would be done\n";
+    "summary.csv there.";
 
 static void stop_on_unknown(const struct kr_case_arguments *arguments) {
     if (arguments->n_left)

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
-#include "child.h"
+#include "base/child.h"
 #include "fill.h"
 
 #include <unistd.h>

@@ -4,20 +4,15 @@
  */
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/unit.h"
 #include "case.h"
 #include "mesh.h"
 #include "plate.h"
 #include "quality.h"
 
 static const char usage[] =
-    "usage: kirsch-mesh [--variant NAME] [--set KEY=VALUE]... [--output FOLDER]\n"
-    "                   [--check] [--explain] CASE.yaml\n"
+    "kirsch-mesh case.yaml\n"
     "\n"
-    "Meshes the plate of a case and writes plate.msh (gmsh MSH 4.1) into the case's folder.\n"
-    "\n"
-    "  --check     check the deck and stop\n"
-    "  --explain   say what would be meshed and stop\n";
+    "Meshes the plate of a case and writes plate.msh (gmsh MSH 4.1) into the case's folder.";
 
 int main(int argc, char **argv) {
     struct kr_case_arguments arguments;
@@ -28,8 +23,6 @@ int main(int argc, char **argv) {
     if (arguments.n_left)
         kr_stop(KR_EXIT_INPUT, "unknown argument %s; see --help", arguments.left[0]);
     struct kr_deck *deck = kr_case_open(&arguments, &c);
-    if (arguments.check)
-        return 0;
 
     struct kr_plate plate = {.width = c.width,
                              .height = c.height,
@@ -56,5 +49,7 @@ int main(int argc, char **argv) {
     kr_plate_report_free(&report);
     kr_free(hole);
     kr_deck_close(deck);
+    kr_free(arguments.set);
+    kr_free(arguments.left);
     return 0;
 }

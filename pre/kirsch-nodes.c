@@ -15,9 +15,11 @@
 #include <string.h>
 
 static const char usage[] =
-    "kirsch-nodes [MESH] case.yaml: turn the cells of a mesh into nodes. MESH is a gmsh file\n"
-    "(NAME.msh; left out: plate.msh in the case's folder) or the plates paper's nodes.dat (NAME.dat).\n"
-    "Writes plate.nodes.h5 and nodes.dat into the case's folder.";
+    "kirsch-nodes [MESH] case.yaml\n"
+    "\n"
+    "Turns the cells of a mesh into nodes. MESH is a gmsh file (NAME.msh; left out: plate.msh in the\n"
+    "case's folder) or the plates paper's nodes.dat (NAME.dat). Writes plate.nodes.h5 and nodes.dat\n"
+    "into the case's folder.";
 
 static int ends_with(const char *text, const char *end) {
     size_t length = strlen(text), tail = strlen(end);

@@ -15,13 +15,7 @@ static const char usage[] =
     "kirsch-pores case.yaml\n"
     "\n"
     "Places the random pores of the deck's geometry.pores and writes pores.txt into the case's\n"
-    "folder. The same seed gives the same pores everywhere.\n"
-    "\n"
-    "  --variant NAME     a variant of the deck\n"
-    "  --set KEY=VALUE    a value over the deck's, any number of times\n"
-    "  --output FOLDER    the case's folder\n"
-    "  --check            check the deck, do nothing else\n"
-    "  --explain          say what would be done\n";
+    "folder. The same seed gives the same pores everywhere.";
 
 static double porosity_of(const struct kr_case *c, const struct kr_case_hole *hole, size_t count) {
     double area = 0;
@@ -30,14 +24,17 @@ static double porosity_of(const struct kr_case *c, const struct kr_case_hole *ho
     return area / (c->width * c->height);
 }
 
-static void write_pores(const struct kr_case *c, const struct kr_case_hole *hole, const char *path) {
+static void write_pores(const struct kr_case *c, const struct kr_case_hole *hole,
+                        const char *path) {
     const struct kr_case_pores *p = &c->pores;
     char *beside = kr_text("%s.tmp", path);
     FILE *file = fopen(beside, "w");
     if (!file)
         kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", beside, strerror(errno));
-    fprintf(file, "# x y radius [m]; seed %lld, radius %g to %g m, %g diameters from the edges, gap %g m\n",
-            (long long)p->seed, p->radius[0], p->radius[1], p->edge_diameters, p->gap);
+    fprintf(
+        file,
+        "# x y radius [m]; seed %lld, radius %g to %g m, %g diameters from the edges, gap %g m\n",
+        (long long)p->seed, p->radius[0], p->radius[1], p->edge_diameters, p->gap);
     for (int64_t k = 0; k < p->count; k++)
         fprintf(file, "%.9f %.9f %.9f\n", hole[k].centre[0], hole[k].centre[1], hole[k].radius);
     int failed = ferror(file) | fclose(file);
@@ -50,14 +47,15 @@ static void write_pores(const struct kr_case *c, const struct kr_case_hole *hole
 static void make_pores(struct kr_deck *deck, const struct kr_case *c) {
     struct kr_case_hole *hole = KR_NEW(struct kr_case_hole, (size_t)c->pores.count);
     int64_t throws;
-    size_t placed = kr_pores_throw(&c->pores, c->width, c->height, hole, &throws);
+    size_t placed = kr_pores_throw(c, hole, &throws);
     if (placed < (size_t)c->pores.count)
-        kr_stop(KR_EXIT_INPUT,
-                "%s: only %zu of %lld pores found a place in %lld throws (porosity %.1f %%); ask for "
-                "fewer or smaller pores, a smaller gap or edge_diameters, another seed, or allow more "
-                "attempts",
-                kr_deck_where(deck, &c->pores.count), placed, (long long)c->pores.count,
-                (long long)throws, 100 * porosity_of(c, hole, placed));
+        kr_stop(
+            KR_EXIT_INPUT,
+            "%s: only %zu of %lld pores found a place in %lld throws (porosity %.1f %%); ask for "
+            "fewer or smaller pores, a smaller gap or edge_diameters, another seed, or allow more "
+            "attempts",
+            kr_deck_where(deck, &c->pores.count), placed, (long long)c->pores.count,
+            (long long)throws, 100 * porosity_of(c, hole, placed));
     char *path = kr_case_file(c, "pores.txt");
     write_pores(c, hole, path);
     kr_say("  %zu pores in %lld throws, porosity %.2f %%", placed, (long long)throws,
@@ -73,8 +71,7 @@ int main(int argc, char **argv) {
     kr_error_program("kirsch-pores");
     kr_case_arguments(argc, argv, usage, &arguments);
     if (arguments.n_left)
-        kr_stop(KR_EXIT_INPUT, "unknown argument '%s'; see kirsch-pores --help",
-                arguments.left[0]);
+        kr_stop(KR_EXIT_INPUT, "unknown argument '%s'; see kirsch-pores --help", arguments.left[0]);
     struct kr_deck *deck = kr_case_open(&arguments, &c);
     if (!c.pores.count)
         kr_stop(KR_EXIT_INPUT, "%s asks for no pores; expected geometry.pores.count above 0",

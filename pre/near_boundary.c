@@ -68,7 +68,8 @@ static size_t count_corners(const struct kr_plate *plate, const struct kr_region
 }
 
 static char *name_of(const struct kr_region *region) {
-    char *name = kr_text("around hole_%zu", region->hole[0] + 1);
+    char *name =
+        kr_text(region->n_holes > 1 ? "around holes %zu" : "around hole_%zu", region->hole[0] + 1);
     for (size_t h = 1; h < region->n_holes; h++) {
         char *longer = kr_text("%s, %zu", name, region->hole[h] + 1);
         kr_free(name);

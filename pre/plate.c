@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "builder.h"
-#include "child.h"
+#include "base/child.h"
 #include "near_boundary.h"
 
 #include <math.h>

@@ -29,7 +29,7 @@ struct kr_plate {
 
 /** How a region was filled. */
 struct kr_plate_region {
-    char *name; /* "around hole 3" */
+    char *name; /* "around hole_3" */
     const char *method;
     size_t n_cells, n_triangles;
     double seconds;

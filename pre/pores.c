@@ -1,15 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Random pores. Random sequential adsorption: a throw that fits stays, one that does not is forgotten.
+ * Random pores. Random sequential adsorption: a throw that fits stays, one that does not is
+ * forgotten.
  *
- * The generator is splitmix64 (G. L. Steele, D. Lea, C. H. Flood, Fast splittable pseudorandom number
- * generators, OOPSLA 2014): a counter and a mix, whole in its 64 bits of state.
+ * The generator is splitmix64 (G. L. Steele, D. Lea, C. H. Flood, Fast splittable pseudorandom
+ * number generators, OOPSLA 2014): a counter and a mix, whole in its 64 bits of state.
  */
 #include "pores.h"
 
+#include "base/memory.h"
+
 #include <math.h>
 
-static const double NANOMETRE = 1e-9;
+/* A quotient by a whole number is rounded just once, unlike a product with 1e-9. */
+static const double NANOMETRES_A_METRE = 1e9;
 
 /* Squares of nanometres outgrow 64 bits in plates of three metres. */
 __extension__ typedef __int128 wide;
@@ -36,7 +40,7 @@ static int64_t between(uint64_t *state, int64_t least, int64_t most) {
 }
 
 static int64_t nanometres(double metres) {
-    return llround(metres / NANOMETRE);
+    return llround(metres * NANOMETRES_A_METRE);
 }
 
 /* Whether two pores keep the gap: centres apart by both radii and the gap, squared as integers. */
@@ -45,18 +49,16 @@ static int are_apart(const struct pore *a, const struct pore *b, int64_t gap) {
     return dx * dx + dy * dy >= least * least;
 }
 
-static struct pore pore_of(const struct kr_case_hole *hole) {
-    return (struct pore){nanometres(hole->centre[0]), nanometres(hole->centre[1]),
-                         nanometres(hole->radius)};
-}
-
 /* One throw; 0 if a pore of that size has no place between the edges. */
-static int throw_one(const struct kr_case_pores *pores, uint64_t *state, int64_t width,
-                     int64_t height, struct pore *pore) {
-    pore->radius = between(state, nanometres(pores->radius[0]), nanometres(pores->radius[1]));
-    int64_t edge = llround(ceil(2 * pores->edge_diameters * (double)pore->radius));
-    if (edge < pore->radius)
-        edge = pore->radius;
+static int throw_one(const struct kr_case *c, uint64_t *state, struct pore *pore) {
+    const int64_t width = nanometres(c->width), height = nanometres(c->height);
+    const int64_t gap = nanometres(c->pores.gap);
+    int64_t least = nanometres(c->pores.radius[0]), most = nanometres(c->pores.radius[1]);
+    pore->radius = between(state, least > 0 ? least : 1, most > 0 ? most : 1);
+    int64_t edge = llround(ceil(2 * c->pores.edge_diameters * (double)pore->radius));
+    int64_t apart = pore->radius + (gap > 0 ? gap : 1);
+    if (edge < apart)
+        edge = apart;
     if (2 * edge > width || 2 * edge > height)
         return 0;
     pore->x = between(state, edge, width - edge);
@@ -64,22 +66,33 @@ static int throw_one(const struct kr_case_pores *pores, uint64_t *state, int64_t
     return 1;
 }
 
-size_t kr_pores_throw(const struct kr_case_pores *pores, double width, double height,
-                      struct kr_case_hole *hole, int64_t *throws) {
-    uint64_t state = (uint64_t)pores->seed;
-    const int64_t gap = nanometres(pores->gap);
-    size_t placed = 0;
-    for (*throws = 0; *throws < pores->attempts && placed < (size_t)pores->count; ++*throws) {
-        struct pore pore;
-        int fits = throw_one(pores, &state, nanometres(width), nanometres(height), &pore);
-        for (size_t k = 0; k < placed && fits; k++) {
-            struct pore other = pore_of(&hole[k]);
-            fits = are_apart(&pore, &other, gap);
-        }
-        if (fits)
-            hole[placed++] =
-                (struct kr_case_hole){{(double)pore.x * NANOMETRE, (double)pore.y * NANOMETRE},
-                                      (double)pore.radius * NANOMETRE};
+/* The deck's holes stand first among the pores; their radius is rounded up, so that the gap is
+ * kept. */
+static size_t take_holes(const struct kr_case *c, struct pore *pore) {
+    const struct kr_case_hole *hole = c->holes.item;
+    for (size_t k = 0; k < c->holes.count; k++)
+        pore[k] = (struct pore){nanometres(hole[k].centre[0]), nanometres(hole[k].centre[1]),
+                                nanometres(hole[k].radius) + 1};
+    return c->holes.count;
+}
+
+size_t kr_pores_throw(const struct kr_case *c, struct kr_case_hole *hole, int64_t *throws) {
+    uint64_t state = (uint64_t)c->pores.seed;
+    const int64_t gap = nanometres(c->pores.gap);
+    struct pore *pore = KR_NEW(struct pore, c->holes.count + (size_t)c->pores.count);
+    const size_t holes = take_holes(c, pore);
+    size_t placed = holes;
+    for (*throws = 0; *throws < c->pores.attempts && placed < holes + (size_t)c->pores.count;
+         ++*throws) {
+        int fits = throw_one(c, &state, &pore[placed]);
+        for (size_t k = 0; k < placed && fits; k++)
+            fits = are_apart(&pore[placed], &pore[k], gap);
+        placed += (size_t)fits;
     }
-    return placed;
+    for (size_t k = holes; k < placed; k++)
+        hole[k - holes] = (struct kr_case_hole){
+            {(double)pore[k].x / NANOMETRES_A_METRE, (double)pore[k].y / NANOMETRES_A_METRE},
+            (double)pore[k].radius / NANOMETRES_A_METRE};
+    kr_free(pore);
+    return placed - holes;
 }

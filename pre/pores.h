@@ -7,18 +7,21 @@
 
 #include "case.h"
 
-/** Throw pores into a plate of width x height [m]: radius even between the least and the most, centre
- *  even over the places at least `edge_diameters` of the pore's own diameters from each edge, thrown
- *  again if the rims of two pores come nearer than `gap`.
+/** Throw pores into the plate of a case: radius even between the least and the most, centre even
+ * over the places at least `edge_diameters` of the pore's own diameters from each edge, thrown
+ * again if its rim comes nearer than `gap` to that of another pore or of a hole of the deck. A pore
+ * keeps the gap (a nanometre at least) from the edges, too, where edge_diameters alone would let it
+ * touch them.
  *
  *  Places and radii are whole nanometres, and only integers decide: the same seed gives the same
- *  pores on every machine.
+ *  pores on every machine. Each number is the one nearest to its nine decimals, so text with
+ *  nine decimals gives it back to the last bit.
  *
- *  out  hole    room for pores->count holes
+ *  in   c       width, height, holes and pores
+ *  out  hole    room for pores.count holes
  *  out  throws  how many throws it took
- *  returns how many were placed before pores->attempts throws were used up.
+ *  returns how many were placed before pores.attempts throws were used up.
  */
-size_t kr_pores_throw(const struct kr_case_pores *pores, double width, double height,
-                      struct kr_case_hole *hole, int64_t *throws);
+size_t kr_pores_throw(const struct kr_case *c, struct kr_case_hole *hole, int64_t *throws);
 
 #endif

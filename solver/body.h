@@ -13,7 +13,7 @@ struct kr_body {
     int dim;
     size_t n;
     double *u[3];      /* m */
-    double *v[3];      /* m/s; half a step behind during the time loop, see step.h */
+    double *v[3];      /* m/s; half a step behind during the time loop, see run.c */
     double *force[3];  /* N/m^3, internal and body forces together */
     double *energy;    /* J/m^3, strain energy density as of the last kr_body_energy */
     unsigned char *flag;

@@ -244,6 +244,24 @@ void kr_boundary_hold(struct kr_boundary *b, struct kr_body *body, double t, dou
     }
 }
 
+void kr_boundary_start(struct kr_boundary *b, struct kr_body *body, double dt) {
+    for (size_t k = 0; k < b->count; k++) {
+        const struct load *load = &b->load[k];
+        for (int d = 0; d < b->dim; d++) {
+            if (load->kind == BODY_FORCE || !load->part[d].expression)
+                continue;
+            struct value now = value_begin(b, load, d, 0), next = motion_begin(b, load, d, 0, dt);
+            for (size_t m = 0; m < load->set->count; m++) {
+                int64_t i = load->set->node[m];
+                if (load->kind == DISPLACEMENT)
+                    body->u[d][i] = value_of(&now, i);
+                body->v[d][i] = load->kind == VELOCITY ? value_of(&now, i)
+                                                       : motion_of(&next, body, d, i, dt);
+            }
+        }
+    }
+}
+
 void kr_boundary_velocity(struct kr_boundary *b, const struct kr_body *body, double t, double dt,
                           int first, double *const v[3]) {
     for (size_t k = 0; k < b->count; k++) {

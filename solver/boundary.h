@@ -22,6 +22,10 @@ struct kr_boundary *kr_boundary_create(struct kr_deck *deck, const struct kr_cas
                                        const struct kr_nodes *nodes);
 void kr_boundary_free(struct kr_boundary *boundary);
 
+/** Prescribed motion at time 0: where a displacement is prescribed, body->u becomes it, and
+ *  body->v what leads on from there; where a velocity is, body->v becomes it. */
+void kr_boundary_start(struct kr_boundary *boundary, struct kr_body *body, double dt);
+
 /** Add the body forces at time t [s] to body->force. A traction T on a set gives the body force
  *  T * (length of its boundary)/(volume of the set): the whole force is T times the length. */
 void kr_boundary_push(struct kr_boundary *boundary, struct kr_body *body, double t);

@@ -4,6 +4,7 @@
  */
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/provenance.h"
 #include "base/unit.h"
 #include "case.h"
 
@@ -67,6 +68,19 @@ static void take_argument(int argc, char **argv, int *i, struct kr_case_argument
         out->left[out->n_left++] = argv[*i];
 }
 
+/* What a program says of itself, then what all have in common. */
+static void print_usage(FILE *file, const char *usage) {
+    fprintf(file,
+            "%s\n\n"
+            "  --variant NAME     a variant of the deck\n"
+            "  --set KEY=VALUE    a value over the deck's, any number of times\n"
+            "  --output FOLDER    the case's folder\n"
+            "  --check            check the deck, do nothing else\n"
+            "  --explain          say what it leads to, do nothing else\n"
+            "  --help, --version\n",
+            usage);
+}
+
 void kr_case_arguments(int argc, char **argv, const char *usage, struct kr_case_arguments *out) {
     const char *slash = strrchr(argv[0], '/'), *program = slash ? slash + 1 : argv[0];
     kr_error_program(program);
@@ -74,9 +88,9 @@ void kr_case_arguments(int argc, char **argv, const char *usage, struct kr_case_
     for (int i = 1; i < argc; i++) {
         int help = !strcmp(argv[i], "--help") || !strcmp(argv[i], "-h");
         if (help)
-            fputs(usage, stdout);
+            print_usage(stdout, usage);
         else if (!strcmp(argv[i], "--version"))
-            printf("%s %s\n", program, KR_VERSION);
+            printf("%s %s\n", program, kr_version());
         else
             continue;
         exit(KR_EXIT_OK);
@@ -87,7 +101,8 @@ void kr_case_arguments(int argc, char **argv, const char *usage, struct kr_case_
         take_argument(argc, argv, &i, out);
     pick_deck(out);
     if (!out->deck) {
-        fprintf(stderr, "%s: the deck is missing\n%s", program, usage);
+        fprintf(stderr, "%s: the deck is missing\n", program);
+        print_usage(stderr, usage);
         exit(KR_EXIT_INPUT);
     }
 }

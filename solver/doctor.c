@@ -9,7 +9,7 @@
 #include "base/memory.h"
 #include "base/provenance.h"
 #include "base/unit.h"
-#include "child.h"
+#include "base/child.h"
 #include "kernel.h"
 
 #include <fcntl.h>

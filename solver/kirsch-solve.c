@@ -8,8 +8,10 @@
 #include "run.h"
 
 static const char usage[] =
-    "kirsch-solve: solve a case. Reads plate.nodes.h5 in the case's folder; writes run.h5, run.xdmf\n"
-    "(for ParaView) and history.csv there.";
+    "kirsch-solve case.yaml\n"
+    "\n"
+    "Solves a case. Reads plate.nodes.h5 in the case's folder; writes run.h5, run.xdmf (for ParaView)\n"
+    "and history.csv there.";
 
 int main(int argc, char **argv) {
     struct kr_case_arguments arguments;

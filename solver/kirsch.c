@@ -10,7 +10,7 @@
 #include "base/memory.h"
 #include "base/provenance.h"
 #include "case.h"
-#include "child.h"
+#include "base/child.h"
 #include "doctor.h"
 
 #include <errno.h>
@@ -27,12 +27,7 @@ static const char usage[] =
     "kirsch doctor            is everything installed and sane?\n"
     "kirsch --deck-reference  print the reference of the deck's keys (Markdown)\n"
     "\n"
-    "  --variant NAME     a variant of the deck\n"
-    "  --set KEY=VALUE    a value over the deck's, any number of times\n"
-    "  --output FOLDER    the case's folder\n"
-    "  --force            run all steps\n"
-    "  --check            check the deck, do nothing else\n"
-    "  --explain          say what the deck leads to, do nothing else\n";
+    "  --force            run all steps";
 
 struct step {
     const char *program;

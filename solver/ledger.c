@@ -27,10 +27,9 @@ void kr_ledger_free(struct kr_ledger *ledger) {
 }
 
 void kr_ledger_step(struct kr_ledger *ledger, struct kr_boundary *boundary,
-                    const struct kr_body *body, double t, double dt, int first) {
-    double power = kr_boundary_power(boundary, body, t, dt, first);
-    if (!first)
-        ledger->external += 0.5 * dt * (ledger->power + power);
+                    const struct kr_body *body, double t, double dt) {
+    double power = kr_boundary_power(boundary, body, t, dt, 0);
+    ledger->external += 0.5 * dt * (ledger->power + power);
     ledger->power = power;
 }
 
@@ -60,10 +59,14 @@ void kr_ledger_update(struct kr_ledger *ledger, struct kr_boundary *boundary, st
     ledger->kinetic = kr_body_sum(body->n, kinetic_of_node, &motion);
     ledger->strain = kr_body_energy(body);
     ledger->fracture = crack->energy;
+    ledger->balance = ledger->external - ledger->kinetic - ledger->strain - ledger->fracture;
 }
 
-double kr_ledger_balance(const struct kr_ledger *ledger) {
-    return ledger->external - ledger->kinetic - ledger->strain - ledger->fracture;
+void kr_ledger_begin(struct kr_ledger *ledger, struct kr_boundary *boundary, struct kr_body *body,
+                     const struct kr_crack *crack, double dt) {
+    kr_ledger_update(ledger, boundary, body, crack, 0, dt, 1);
+    ledger->external = ledger->kinetic + ledger->strain + ledger->fracture;
+    ledger->power = kr_boundary_power(boundary, body, 0, dt, 1);
 }
 
 /* ---- history.csv ---- */
@@ -80,6 +83,14 @@ static void check_written(struct kr_history *h) {
                 h->path, strerror(errno));
 }
 
+/* Loads on the same set that come before load k: their columns must differ in name. */
+static size_t loads_before(const struct kr_boundary *boundary, size_t k) {
+    size_t before = 0;
+    for (size_t m = 0; m < k; m++)
+        before += !strcmp(kr_boundary_set(boundary, m), kr_boundary_set(boundary, k));
+    return before;
+}
+
 struct kr_history *kr_history_open(const char *path, const struct kr_boundary *boundary, int dim) {
     struct kr_history *h = KR_NEW(struct kr_history, 1);
     *h = (struct kr_history){.file = fopen(path, "w"), .path = kr_text_copy(path), .dim = dim};
@@ -87,9 +98,14 @@ struct kr_history *kr_history_open(const char *path, const struct kr_boundary *b
         kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", path, strerror(errno));
     fprintf(h->file, "step,time [s],kinetic [J/m],strain [J/m],fracture [J/m],external_work [J/m],"
                      "balance [J/m],broken_bonds");
-    for (size_t k = 0; k < kr_boundary_count(boundary); k++)
+    for (size_t k = 0; k < kr_boundary_count(boundary); k++) {
+        char again[32] = "";
+        size_t before = loads_before(boundary, k);
+        if (before)
+            snprintf(again, sizeof again, " (%zu)", before + 1);
         for (int d = 0; d < dim; d++)
-            fprintf(h->file, ",reaction_%c %s [N/m]", "xyz"[d], kr_boundary_set(boundary, k));
+            fprintf(h->file, ",reaction_%c %s%s [N/m]", "xyz"[d], kr_boundary_set(boundary, k), again);
+    }
     fprintf(h->file, "\n");
     check_written(h);
     return h;
@@ -99,8 +115,7 @@ void kr_history_write(struct kr_history *h, const struct kr_ledger *ledger,
                       const struct kr_boundary *boundary, const struct kr_crack *crack, long step,
                       double t) {
     fprintf(h->file, "%ld,%.9g,%.12g,%.12g,%.12g,%.12g,%.6g,%zu", step, t, ledger->kinetic,
-            ledger->strain, ledger->fracture, ledger->external, kr_ledger_balance(ledger),
-            crack->count);
+            ledger->strain, ledger->fracture, ledger->external, ledger->balance, crack->count);
     for (size_t k = 0; k < kr_boundary_count(boundary); k++)
         for (int d = 0; d < h->dim; d++)
             fprintf(h->file, ",%.9g", kr_boundary_reaction(boundary, k, d));

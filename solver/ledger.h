@@ -12,7 +12,9 @@
 /** Energies at one time [J/m in 2D]. */
 struct kr_ledger {
     double kinetic, strain, fracture, external;
-    double power; /* W/m, of the loads at the last step */
+    double power;   /* W/m, of the loads at the last step */
+    double balance; /* external - kinetic - strain - fracture as of the last kr_ledger_update: 0 but
+                       for the error of the time integration */
     double *v[3]; /* m/s: room for the velocities at the time of the forces */
     size_t n;
     int dim;
@@ -21,16 +23,18 @@ struct kr_ledger {
 struct kr_ledger *kr_ledger_create(const struct kr_body *body);
 void kr_ledger_free(struct kr_ledger *ledger);
 
-/** Add the external work up to time t by the trapezoidal rule on the power; once every step. */
+/** Add the external work up to time t by the trapezoidal rule on the power; once every later step. */
 void kr_ledger_step(struct kr_ledger *ledger, struct kr_boundary *boundary,
-                    const struct kr_body *body, double t, double dt, int first);
+                    const struct kr_body *body, double t, double dt);
+
+/** Begin at time 0, forces included: what a sudden motion of the supports (kr_boundary_start) has put
+ *  in already is external work. */
+void kr_ledger_begin(struct kr_ledger *ledger, struct kr_boundary *boundary, struct kr_body *body,
+                     const struct kr_crack *crack, double dt);
 
 /** Bring kinetic, strain and fracture up to time t, and the velocities at t into ledger->v. */
 void kr_ledger_update(struct kr_ledger *ledger, struct kr_boundary *boundary, struct kr_body *body,
                       const struct kr_crack *crack, double t, double dt, int first);
-
-/** external - kinetic - strain - fracture: 0 but for the error of the time integration. */
-double kr_ledger_balance(const struct kr_ledger *ledger);
 
 struct kr_history; /* Opaque: the open history.csv. */
 

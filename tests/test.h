@@ -17,6 +17,7 @@
 #include <unistd.h>
 
 #include <cmocka.h>
+#include <omp.h>
 
 #include "base/memory.h"
 
@@ -51,6 +52,7 @@ static inline void kr_check_stops(void (*body)(void *), void *argument, int code
         dup2(pipe_ends[1], 2);
         dup2(pipe_ends[1], 1);
         close(pipe_ends[0]);
+        omp_set_num_threads(1); /* a fork leaves the pool's threads behind: waiting for them hangs */
         body(argument);
         _exit(0);
     }

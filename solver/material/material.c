@@ -8,13 +8,18 @@
 #include "material/material.h"
 
 #include "base/error.h"
-#include "material/pmb.h"
 
 #include <math.h>
 #include <string.h>
 
+#define KR_LAW(name) extern const struct kr_law kr_law_##name;
+#include "material/laws.h"
+#undef KR_LAW
+
 const struct kr_law *const kr_laws[] = {
-    &kr_law_pmb,
+#define KR_LAW(name) &kr_law_##name,
+#include "material/laws.h"
+#undef KR_LAW
 };
 const size_t kr_laws_count = sizeof kr_laws / sizeof kr_laws[0];
 

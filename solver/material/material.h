@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
  * Materials. A law says how hard a bond pulls at a stretch s and what energy it then holds; this is
- * all that a new material needs: one file like pmb.c and one line in the list of material.c. The
+ * all that a new material needs: one file like pmb.c and one line in laws.h. The
  * fast loop follows by itself, for it evaluates a polynomial fitted to the law (fit.h).
  */
 #ifndef KR_MATERIAL_H

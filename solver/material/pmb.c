@@ -6,7 +6,7 @@
  *
  *    s   stretch, (|xi + eta| - |xi|)/|xi|
  */
-#include "material/pmb.h"
+#include "material/material.h"
 
 static double force(double s) {
     return s;

@@ -444,7 +444,7 @@ static void case_is_read_in_si(void **state) {
     kr_check_near(c.horizon, 0.00031, 0);
     assert_int_equal(c.grid, KR_GRID_UNIFORM);
     assert_int_equal(c.model, KR_PLANE_STRESS);
-    assert_int_equal(c.surface_deformation, KR_UNIAXIAL_Y);
+    assert_int_equal(c.surface_deformation, KR_MEAN_OVER_AXES);
     kr_check_near(c.density, 1190, 0);
     kr_check_near(c.fracture_energy, 0, 0);
     assert_string_equal(c.law, "pmb");

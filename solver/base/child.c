@@ -3,7 +3,7 @@
  * Children by fork and execv. The time limit is alarm(), which survives execv: the kernel keeps
  * it, even if the child hangs in a loop of its own.
  */
-#include "child.h"
+#include "base/child.h"
 
 #include "base/error.h"
 #include "base/memory.h"

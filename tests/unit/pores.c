@@ -1,0 +1,171 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Random pores obey the rules of the plates paper for every seed, and a seed means the same pores
+ * everywhere.
+ */
+#include "test.h"
+
+#include "pores.h"
+
+/* Places are whole nanometres and the rules hold for them exactly; metres in double precision
+ * differ from them by less than this. */
+static const double ROUNDING = 1e-16;
+
+static struct kr_case plate(int64_t count, int64_t seed) {
+    return (struct kr_case){.width = 50e-3,
+                            .height = 25e-3,
+                            .pores = {.count = count,
+                                      .seed = seed,
+                                      .attempts = 100000,
+                                      .radius = {0.75e-3, 1.5e-3},
+                                      .edge_diameters = 1,
+                                      .gap = 0.3e-3}};
+}
+
+static void check_edges(const struct kr_case *c, const struct kr_case_hole *pore, double room) {
+    assert_true(pore->centre[0] >= room - ROUNDING);
+    assert_true(pore->centre[0] <= c->width - room + ROUNDING);
+    assert_true(pore->centre[1] >= room - ROUNDING);
+    assert_true(pore->centre[1] <= c->height - room + ROUNDING);
+}
+
+static double rim_distance(const struct kr_case_hole *a, const struct kr_case_hole *b) {
+    return hypot(a->centre[0] - b->centre[0], a->centre[1] - b->centre[1]) - a->radius - b->radius;
+}
+
+static void check_rules(const struct kr_case *c, const struct kr_case_hole *pore, size_t n) {
+    const struct kr_case_hole *hole = c->holes.item;
+    for (size_t k = 0; k < n; k++) {
+        assert_true(pore[k].radius >= c->pores.radius[0] && pore[k].radius <= c->pores.radius[1]);
+        check_edges(c, &pore[k], 2 * c->pores.edge_diameters * pore[k].radius);
+        for (size_t l = 0; l < k; l++)
+            assert_true(rim_distance(&pore[k], &pore[l]) >= c->pores.gap - ROUNDING);
+        for (size_t h = 0; h < c->holes.count; h++)
+            assert_true(rim_distance(&pore[k], &hole[h]) >= c->pores.gap - ROUNDING);
+    }
+}
+
+static void pores_obey_the_rules_for_200_seeds(void **unused) {
+    (void)unused;
+    for (int64_t seed = 0; seed < 200; seed++) {
+        struct kr_case c = plate(30, seed);
+        struct kr_case_hole pore[30];
+        int64_t throws;
+        assert_int_equal(kr_pores_throw(&c, pore, &throws), 30);
+        assert_true(throws >= 30 && throws <= 100000);
+        check_rules(&c, pore, 30);
+    }
+    assert_int_equal(kr_memory_outstanding(), 0);
+}
+
+static void pores_keep_clear_of_the_decks_holes(void **unused) {
+    (void)unused;
+    struct kr_case_hole hole[] = {{{25e-3, 12.5e-3}, 8.1234567891e-3}, {{5e-3, 5e-3}, 2e-3}};
+    for (int64_t seed = 0; seed < 50; seed++) {
+        struct kr_case c = plate(12, seed);
+        struct kr_case_hole pore[12];
+        int64_t throws;
+        c.holes = (struct kr_deck_list){2, hole, 1};
+        assert_int_equal(kr_pores_throw(&c, pore, &throws), 12);
+        check_rules(&c, pore, 12);
+    }
+}
+
+static void pores_never_touch_the_edges(void **unused) {
+    (void)unused;
+    for (int64_t seed = 0; seed < 50; seed++) {
+        struct kr_case c = plate(20, seed);
+        struct kr_case_hole pore[20];
+        int64_t throws;
+        c.pores.edge_diameters = 0;
+        assert_int_equal(kr_pores_throw(&c, pore, &throws), 20);
+        for (size_t k = 0; k < 20; k++)
+            check_edges(&c, &pore[k], pore[k].radius + c.pores.gap);
+    }
+}
+
+/** The generator is part of the format: a deck's seed must mean the same pores in years to come. */
+static void a_seed_means_these_pores(void **unused) {
+    (void)unused;
+    struct kr_case c = plate(3, 3);
+    struct kr_case_hole pore[3];
+    int64_t throws;
+    kr_pores_throw(&c, pore, &throws);
+    kr_check_near(pore[0].centre[0], 0.012099424, 0);
+    kr_check_near(pore[0].centre[1], 0.007475807, 0);
+    kr_check_near(pore[0].radius, 0.001209559, 0);
+    kr_check_near(pore[1].centre[0], 0.039662757, 0);
+}
+
+static void equal_seeds_give_equal_pores_and_others_do_not(void **unused) {
+    (void)unused;
+    struct kr_case c = plate(30, 17), d = plate(30, 18);
+    struct kr_case_hole one[30], two[30], three[30];
+    int64_t throws;
+    kr_pores_throw(&c, one, &throws);
+    kr_pores_throw(&c, two, &throws);
+    kr_pores_throw(&d, three, &throws);
+    assert_memory_equal(one, two, sizeof one);
+    assert_memory_not_equal(one, three, sizeof one);
+}
+
+static void nine_decimals_give_each_number_back(void **unused) {
+    (void)unused;
+    struct kr_case c = plate(30, 4);
+    struct kr_case_hole pore[30];
+    int64_t throws;
+    kr_pores_throw(&c, pore, &throws);
+    for (size_t k = 0; k < 30; k++) {
+        char text[32];
+        snprintf(text, sizeof text, "%.9f", pore[k].centre[0]);
+        kr_check_near(strtod(text, NULL), pore[k].centre[0], 0);
+        snprintf(text, sizeof text, "%.9f", pore[k].radius);
+        kr_check_near(strtod(text, NULL), pore[k].radius, 0);
+    }
+}
+
+/** Radii and places are even: means of 3000 draws within 4 standard deviations. */
+static void radii_and_places_are_even(void **unused) {
+    (void)unused;
+    double radius = 0, x = 0;
+    for (int64_t seed = 0; seed < 3000; seed++) {
+        struct kr_case c = plate(1, seed);
+        struct kr_case_hole pore;
+        int64_t throws;
+        kr_pores_throw(&c, &pore, &throws);
+        radius += pore.radius / 3000;
+        x += (pore.centre[0] - c.width / 2) / (c.width / 2 - 2 * pore.radius) / 3000;
+    }
+    kr_check_near(radius, 1.125e-3, 4 * 0.75e-3 / sqrt(12.0 * 3000));
+    kr_check_near(x, 0, 4 * 2 / sqrt(12.0 * 3000));
+}
+
+static void an_impossible_request_ends(void **unused) {
+    (void)unused;
+    struct kr_case c = plate(400, 1);
+    struct kr_case_hole *pore = KR_NEW(struct kr_case_hole, 400);
+    int64_t throws;
+    c.pores.attempts = 5000;
+    size_t placed = kr_pores_throw(&c, pore, &throws);
+    assert_int_equal(throws, 5000);
+    assert_true(placed > 60 && placed < 200);
+    check_rules(&c, pore, placed);
+    c.pores.edge_diameters = 20; /* no place at all */
+    assert_int_equal(kr_pores_throw(&c, pore, &throws), 0);
+    kr_free(pore);
+    assert_int_equal(kr_memory_outstanding(), 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pores_obey_the_rules_for_200_seeds),
+        cmocka_unit_test(pores_keep_clear_of_the_decks_holes),
+        cmocka_unit_test(pores_never_touch_the_edges),
+        cmocka_unit_test(a_seed_means_these_pores),
+        cmocka_unit_test(equal_seeds_give_equal_pores_and_others_do_not),
+        cmocka_unit_test(nine_decimals_give_each_number_back),
+        cmocka_unit_test(radii_and_places_are_even),
+        cmocka_unit_test(an_impossible_request_ends),
+    };
+    kr_run_tests(tests);
+}
