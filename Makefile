@@ -33,8 +33,9 @@ ALL_FLAGS = -std=c11 -D_GNU_SOURCE -fopenmp $(WARNINGS) $(CFLAGS) -Isolver -Ipre
 LIBS      = $(shell pkg-config --libs hdf5 libfyaml 2>/dev/null) -ludunits2 -lmuparser -lm
 
 # What Debian must provide to build and run, and to test.
-PACKAGES := pkg-config libhdf5-dev libfyaml-dev libudunits2-dev libmuparser-dev libgmsh-dev libmetis-dev \
-            libcmocka-dev python3 python3-numpy python3-matplotlib python3-h5py ffmpeg
+PACKAGES := pkg-config libhdf5-dev libfyaml-dev libudunits2-dev libmuparser-dev libgmsh-dev \
+            libmetis-dev libcmocka-dev python3 python3-numpy python3-matplotlib python3-h5py \
+            ffmpeg python3-meshio python3-netcdf4 gmsh
 
 programs_c := $(wildcard pre/kirsch-*.c solver/kirsch-*.c post/kirsch-*.c) $(wildcard solver/kirsch.c)
 library_c  := $(filter-out $(programs_c) solver/kernel.c,$(wildcard solver/base/*.c solver/*.c \
@@ -43,7 +44,7 @@ programs   := $(patsubst %.c,$(BUILD)/%,$(notdir $(programs_c)))
 library_o  := $(patsubst %.c,$(BUILD)/%.o,$(library_c))
 tests_c    := $(wildcard tests/unit/*.c tests/property/*.c tests/convergence/*.c tests/input/*.c)
 tests      := $(patsubst tests/%.c,$(BUILD)/tests/%,$(tests_c))
-scripts    := $(patsubst post/%.py,$(BUILD)/%.py,$(wildcard post/*.py))
+scripts    := $(patsubst %,$(BUILD)/%,$(notdir $(wildcard pre/*.py post/*.py)))
 
 # The bond loop is built once for each kind of processor and chosen at run time.
 kernels    := $(if $(wildcard solver/kernel.c),baseline $(if $(filter x86_64,$(shell uname -m)),avx2 avx512))
@@ -82,6 +83,10 @@ $(BUILD)/%.o: %.c
 	$(Q)$(CC) $(ALL_FLAGS) -DKR_VERSION='"$(VERSION)"' -c $< -o $@
 
 $(BUILD)/%.py: post/%.py
+	@mkdir -p $(@D)
+	$(Q)cp $< $@
+
+$(BUILD)/%.py: pre/%.py
 	@mkdir -p $(@D)
 	$(Q)cp $< $@
 

@@ -25,7 +25,7 @@ static double run(const char *loads, const char *material, double time_step,
     double balance = 0, work = 0;
     kr_test_sets(nodes, COLUMNS, ROWS);
     kr_test_case_open(&t, nodes, HORIZON, deck);
-    kr_run_solve(t.run, "");
+    kr_run_solve(t.run, "", 0);
     size_t count = kr_test_history(&t, record, MOST_RECORDS);
     assert_true(count > 25);
     for (size_t k = 0; k < count; k++) {

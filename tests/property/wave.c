@@ -102,7 +102,7 @@ static double swing(int steps_a_period) {
                          1.25 * period, 1.0000001 * period / steps_a_period, pull, k, node);
     kr_test_sets(nodes, COLUMNS, ROWS);
     kr_test_case_open(&t, nodes, horizon, deck);
-    kr_run_solve(t.run, "");
+    kr_run_solve(t.run, "", 0);
     double u = t.run->body->u[0][kr_plate_middle(COLUMNS, ROWS)] * KR_PMMA_DENSITY * square / pull;
     kr_test_case_close(&t);
     kr_free(deck);
