@@ -11,6 +11,7 @@
 #include "nodes_dat.h"
 #include "partition.h"
 #include "surface.h"
+#include "weight.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,9 +31,9 @@ static int ends_with(const char *text, const char *end) {
     return length >= tail && !strcmp(text + length - tail, end);
 }
 
-/* The nodes of the mesh named on the command line, or of the case's own. */
+/* The nodes of the mesh named on the command line, or of the case's own; settles what hangs on them. */
 static struct kr_nodes *read_nodes(const struct kr_case_arguments *arguments, struct kr_deck *deck,
-                                   const struct kr_case *c) {
+                                   struct kr_case *c) {
     if (arguments->n_left > 1)
         kr_stop(KR_EXIT_INPUT, "found the argument '%s'; expected one mesh at the most",
                 arguments->left[1]);
@@ -48,10 +49,7 @@ static struct kr_nodes *read_nodes(const struct kr_case_arguments *arguments, st
             kr_stop(KR_EXIT_INPUT, "%s: %s", path, fault);
         nodes = kr_convert(mesh);
     }
-    if (!nodes->n_points && (c->partial_volume == KR_PARTIAL_VOLUME_EXACT ||
-                             c->partial_volume == KR_PARTIAL_VOLUME_EXACT_CENTROID))
-        kr_deck_fault(deck, &c->partial_volume,
-                      "exact shares need the cells of a mesh, and %s has none; take hhb", path);
+    c->partial_volume = kr_weights_choose(deck, c, nodes);
     kr_convert_sets(deck, c, mesh, nodes);
     kr_boundary_check(deck, c, nodes);
     kr_deck_finish(deck);

@@ -203,7 +203,7 @@ struct kr_surface_report kr_surface_correct(struct kr_nodes *nodes,
     struct kr_material whole = *material;
     whole.critical_stretch = INFINITY;
     kr_surface_clear(nodes);
-    struct kr_progress begun = kr_progress_begin("surface factors", 0);
+    struct kr_progress begun = kr_progress_begin("surface factors", 0, 0);
     struct kr_bonds *bonds = kr_bonds_create(nodes, &whole, partial_volume);
     struct problem problem = {.body = kr_body_create(bonds), .diagonal = KR_NEW(double, nodes->n)};
     problem.progress = begun;

@@ -80,11 +80,13 @@ static const struct kr_deck_key set_keys[] = {
 static const struct kr_deck_key nodes_keys[] = {
     {"horizon", NUMBER_OF(AT(horizon), "m"), POSITIVE,
      .text = "Reach of the bonds; 3 to 6 spacings, at least 2."},
-    {"partial_volume", KR_DECK_CHOICE, AT(partial_volume), .words = KR_PARTIAL_VOLUME_WORDS, .fallback = "hhb",
-     .text = "Share of a cell that counts where the horizon cuts it: `hhb`, linear over the "
-             "half width of the cell, the mean of both ends of a bond; `none`: all or nothing; "
-             "`exact`: the area of the cell inside the circle, the mean of both ends; "
-             "`exact-centroid`: the same, the bond reaching to the centroid of that part; "
+    {"partial_volume", KR_DECK_CHOICE, AT(partial_volume), .words = KR_PARTIAL_VOLUME_WORDS,
+     .fallback = "exact-centroid",
+     .text = "Share of a cell that counts where the horizon cuts it: `exact`, the area of the cell "
+             "inside the circle, the mean of both ends of a bond; `exact-centroid`: the same, the bond "
+             "reaching to the centroid of that part; `hhb`: linear over the width of the cell, the "
+             "mean of both ends, and the default of nodes that came without cells; `none`: all or "
+             "nothing; "
              "`hhb-one-sided`: of the far cell alone, as published; on unequal cells momentum then "
              "drifts, so it is for comparison only."},
     {"surface_correction", KR_DECK_CHOICE, AT(surface_correction), .words = KR_SURFACE_WORDS,

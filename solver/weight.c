@@ -21,6 +21,17 @@ static int is_exact(int partial_volume) {
            partial_volume == KR_PARTIAL_VOLUME_EXACT_CENTROID;
 }
 
+int kr_weights_choose(struct kr_deck *deck, const struct kr_case *c, const struct kr_nodes *nodes) {
+    int have_cells = nodes->dim == 2 && nodes->n_points > 0;
+    if (have_cells || !is_exact(c->partial_volume))
+        return c->partial_volume;
+    if (kr_deck_given(deck, &c->partial_volume))
+        kr_deck_fault(deck, &c->partial_volume,
+                      "exact shares need the cells of a mesh in the plane, and these nodes have "
+                      "none; take hhb");
+    return KR_PARTIAL_VOLUME_HHB;
+}
+
 static size_t corners_of(const struct kr_nodes *nodes, size_t i) {
     return (size_t)(nodes->first[i + 1] - nodes->first[i]);
 }

@@ -55,6 +55,10 @@ struct kr_weights {
         *radius; /* (n) m: of the circle about the node that holds its cell; exact weights only */
 };
 
+/** The partial volume of a case on these nodes. Exact shares need cells in the plane: where the deck
+ *  leaves the choice open, nodes without get hhb; where it asks for exact ones, that is a fault. */
+int kr_weights_choose(struct kr_deck *deck, const struct kr_case *c, const struct kr_nodes *nodes);
+
 /** Get ready to weigh. Stops (exit 2) where exact weights are asked of nodes without cells, or in
  *  3D. The nodes must outlive the weights. */
 struct kr_weights *kr_weights_create(const struct kr_nodes *nodes, double horizon,
