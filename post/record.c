@@ -27,13 +27,13 @@ static void read_attributes(const struct kr_h5 *file, struct kr_record *record) 
     record->spacing = positive(file, "spacing");
     record->horizon = positive(file, "horizon");
     record->rayleigh_speed = positive(file, "rayleigh_speed");
-    record->steps = kr_h5_get_int64(file, "/", "steps");
-    record->finished = kr_h5_get_int64(file, "/", "finished") != 0;
+    record->steps = kr_h5_get_int64(file, "/crack", "steps");
+    record->finished = kr_h5_get_int64(file, "/crack", "finished") != 0;
     record->bonds = kr_h5_get_int64(file, "/", "bonds");
-    record->external_work = kr_h5_get_double(file, "/", "external_work");
-    record->kinetic_energy = kr_h5_get_double(file, "/", "kinetic_energy");
-    record->strain_energy = kr_h5_get_double(file, "/", "strain_energy");
-    record->fracture_work = kr_h5_get_double(file, "/", "fracture_work");
+    record->external_work = kr_h5_get_double(file, "/crack", "external_work");
+    record->kinetic_energy = kr_h5_get_double(file, "/crack", "kinetic_energy");
+    record->strain_energy = kr_h5_get_double(file, "/crack", "strain_energy");
+    record->fracture_work = kr_h5_get_double(file, "/crack", "fracture_work");
 }
 
 /** Places are finite; times are -1, within the run or infinite. */

@@ -94,13 +94,19 @@ class Case:
             if nodes != len(self.cells()[3]):
                 raise Fault("run.h5 has %d nodes, plate.nodes.h5 has %d: they are not of one case"
                             % (nodes, len(self.cells()[3])))
-            if not len(self._run.get("step", {})):
+            if not len(self.written()):
                 raise Fault("%s holds no output yet" % self.path("run.h5"))
         return self._run
 
+    def written(self):
+        """Names of the outputs that are there: run.h5 links to those still to come, too."""
+        group = self._run.get("step", {})
+        return sorted(name for name in group if group.get(name) is not None)
+
     def steps(self):
         """Names of the outputs and their times [us], in order."""
-        names = sorted(self.run()["step"])
+        self.run()
+        names = self.written()
         return names, np.array([1e6 * self.run()["step"][n].attrs["time"] for n in names])
 
     def field(self, step, name):

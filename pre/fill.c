@@ -161,9 +161,10 @@ static char *boundary_fault(const struct kr_gmsh_region *region) {
     for (size_t s = 0; s < sides->count && !fault; s++) {
         size_t a = sides->side[s].from, b = sides->side[s].to;
         const double *point = region->point + 2 * a;
-        if (kr_sides_find(sides, a, b, NULL) != 1)
+        size_t back = kr_sides_find(sides, b, a, NULL);
+        if (kr_sides_find(sides, a, b, NULL) > 1 || back > 1)
             fault = kr_text("cells overlap at (%g, %g)", point[0], point[1]);
-        else if (kr_sides_find(sides, b, a, NULL) == 1)
+        else if (back == 1)
             continue;
         else if (a < region->n_on_loops && next[a] == b)
             on_loops++;

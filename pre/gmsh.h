@@ -25,7 +25,7 @@ struct kr_gmsh_region {
     size_t *first;    /* (n_loops + 1) where the corners of a loop begin */
     double *corner;   /* (first[n_loops] x 2) */
     size_t *segments; /* (first[n_loops]) of the line that leaves a corner, equal in length */
-    const char *name; /* for messages: "around hole 3" */
+    const char *name; /* for messages: "around hole_3" */
 
     /* got: the points on the loops come first, exactly where they were asked for, in order */
     size_t n_points, n_on_loops;

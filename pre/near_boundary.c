@@ -58,23 +58,29 @@ static unsigned char *mark_cells(const struct kr_plate *plate, const struct kr_p
     return marked;
 }
 
-/** "around hole_3, hole_4": the boundaries that do not fit the lattice. */
+/** "around hole_3", "around outline, holes 3, 4": the boundaries that do not fit the lattice. */
 static char *name_of(const struct filling *f, const struct kr_region *region) {
-    enum { MOST_NAMES = 8 };
-    size_t n_lattice = (f->body->lattice.columns + 1) * (f->body->lattice.rows + 1), named = 0;
+    size_t n_lattice = (f->body->lattice.columns + 1) * (f->body->lattice.rows + 1);
     unsigned char *seen = KR_NEW(unsigned char, f->body->n_groups);
     char *name = kr_text("around");
+    int named = 0, holes = 0;
     for (size_t l = 0; l < region->n_loops; l++)
         for (size_t k = 0; k < region->loop[l].n; k++)
             if (region->loop[l].point[k] >= n_lattice) {
                 size_t corner = region->loop[l].point[k] - n_lattice;
                 seen[f->polygon.group[corner]] |= !f->polygon.on_line[corner];
             }
-    for (size_t g = 0; g < f->body->n_groups; g++) {
-        if (!seen[g] || ++named > MOST_NAMES + 1)
+    for (int g = f->body->first_hole; g < (int)f->body->n_groups; g++)
+        holes += seen[g];
+    for (int g = 0, hole = 0; g < (int)f->body->n_groups; g++) {
+        int number = g - f->body->first_hole + 1;
+        if (!seen[g])
             continue;
-        char *longer = kr_text("%s%s %s", name, named > 1 ? "," : "",
-                               named > MOST_NAMES ? "..." : f->body->group[g]);
+        hole += number > 0;
+        char *comma = named++ ? "," : "";
+        char *longer = number < 1 || holes == 1
+                           ? kr_text("%s%s %s", name, comma, f->body->group[g])
+                           : kr_text("%s%s %s%d", name, comma, hole == 1 ? "holes " : "", number);
         kr_free(name);
         name = longer;
     }
@@ -219,7 +225,10 @@ struct kr_mesh *kr_near_boundary_mesh(const struct kr_plate *plate,
                                       struct kr_plate_report *report) {
     struct filling f = {.plate = plate, .body = body};
     f.polygon = kr_polygon_of(&body->exact, &body->lattice);
-    if (plate->grid != KR_GRID_FREE && !(plate->padding >= plate->spacing * (1 - 1e-9)))
+    size_t rough = plate->n_holes; /* edges that do not fit the lattice */
+    for (size_t s = 0; s < f.polygon.n; s++)
+        rough += !f.polygon.on_line[s];
+    if (rough && plate->grid != KR_GRID_FREE && !(plate->padding >= plate->spacing * (1 - 1e-9)))
         kr_stop(KR_EXIT_INPUT,
                 "a padding of %.9g mm is below the spacing of %.9g mm: quadrilaterals need room "
                 "between a hole and its box; the horizon is a good padding",

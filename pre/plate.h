@@ -27,15 +27,15 @@ struct kr_plate {
     double spacing;       /* m: both sides are multiples of it */
     double padding;       /* m: from a hole to the rim of its box; near-boundary only */
     enum kr_grid grid;
-    struct kr_case_outline outline; /* zeros: the rectangle of width by height */
     size_t n_holes;
     const struct kr_case_hole *hole; /* they may overlap and cut the outline */
     struct kr_gmsh_options gmsh;
+    struct kr_case_outline outline; /* zeros: the rectangle of width by height */
 };
 
 /** How a region was filled. */
 struct kr_plate_region {
-    char *name; /* "around hole 3" */
+    char *name; /* "around hole_3" */
     const char *method;
     size_t n_cells, n_triangles;
     double seconds;

@@ -148,17 +148,17 @@ static void add_corner(struct loop *loop, const double point[2], const double bu
 
 /** What moves a point on an arc outward: its normal by curvature times the square of the side. */
 static void bulge_at(const struct kr_piece *piece, double u, double side, double bulge[2]) {
-    double p[2], before[2], after[2], h = 1e-4;
+    double p[2], along[2];
     bulge[0] = bulge[1] = 0;
     if (!piece->is_arc)
         return;
-    kr_piece_at(piece, fmax(u - h, 0), p, before);
-    kr_piece_at(piece, fmin(u + h, 1), p, after);
-    double turn = before[0] * after[1] - before[1] * after[0];
-    double speed = hypot(before[0], before[1]), span = (fmin(u + h, 1) - fmax(u - h, 0)) * speed;
-    double curvature = turn / (speed * speed) / span;
-    bulge[0] = curvature * side * side * before[1] / speed;
-    bulge[1] = -curvature * side * side * before[0] / speed;
+    /* P' x P'' = a x b on every ellipse, t its parameter. */
+    kr_piece_at(piece, u, p, along);
+    double span = piece->t1 - piece->t0, speed = hypot(along[0], along[1]);
+    double ab = piece->a[0] * piece->b[1] - piece->a[1] * piece->b[0];
+    double curvature = ab * span * span * span / (speed * speed * speed);
+    bulge[0] = curvature * side * side * along[1] / speed;
+    bulge[1] = -curvature * side * side * along[0] / speed;
 }
 
 /** Share of a piece's parameter at a length along it. */

@@ -100,8 +100,12 @@ static double dot(size_t n, const double *a, const double *b) {
 /* Largest |W_i/W0 - 1|, from the residual r_i = V_i (W0 - W_i). */
 static double worst_of(const struct problem *p, const double *residual, double reference) {
     double worst = 0;
-    for (size_t i = 0; i < p->body->n; i++)
-        worst = fmax(worst, fabs(residual[i] / (p->body->bonds->volume[i] * reference)));
+    for (size_t i = 0; i < p->body->n; i++) {
+        double off = fabs(residual[i] / (p->body->bonds->volume[i] * reference));
+        if (isnan(off)) /* fmax would pass over it */
+            return INFINITY;
+        worst = fmax(worst, off);
+    }
     return worst;
 }
 
@@ -116,7 +120,7 @@ static void solve(struct problem *p, double *lambda, struct kr_surface_report *r
         residual[i] = p->body->bonds->volume[i] * report->reference - image[i];
     }
     while ((report->residual = worst_of(p, residual, report->reference)) > TOLERANCE &&
-           report->iterations < MOST_ITERATIONS) {
+           isfinite(report->residual) && report->iterations < MOST_ITERATIONS) {
         for (size_t i = 0; i < n; i++)
             scaled[i] = residual[i] / p->diagonal[i];
         double now = dot(n, residual, scaled);

@@ -186,6 +186,9 @@ static const struct kr_deck_key solver_keys[] = {
      .text = "Step of velocity-Verlet; 0: the largest stable step times `safety_factor`."},
     {"safety_factor", NUMBER_OF(AT(safety_factor), "1"), .fallback = "0.8", .least = 0, .most = 1,
      .exclusive = 1, .text = "Share of the largest stable step that is taken."},
+    {"checkpoint_every", NUMBER_OF(AT(checkpoint_every), "s"), .fallback = "600 s", NOT_NEGATIVE,
+     .text = "Wall time between checkpoints, from which a stopped run goes on; 0: only when asked by "
+             "a signal (SIGUSR1, or SIGTERM and SIGINT, which also stop the run)."},
     {NULL},
 };
 

@@ -121,6 +121,7 @@ struct kr_case {
     double end_time;      /* s */
     double time_step;     /* s; 0: found */
     double safety_factor; /* of the largest stable step */
+    double checkpoint_every; /* s of wall time; 0: only on signals */
 
     /* output */
     const char *folder;

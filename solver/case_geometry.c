@@ -77,9 +77,10 @@ static int check_parts(struct kr_deck *deck, const void *from, size_t n, const s
     return sound;
 }
 
-/* Whether the deck gives any part. An item that is no map has none, and its fault is reported. */
+/* Whether the deck gives any part but the centre, which has the address of the item as a whole. An
+   item that is no map has none, and its fault is reported. */
 static int has_parts(const struct kr_deck *deck, const struct kr_case_hole *hole) {
-    for (size_t k = 0; k < HOLE_PARTS; k++)
+    for (size_t k = 1; k < HOLE_PARTS; k++)
         if (kr_deck_given(deck, (const char *)hole + hole_part[k].offset))
             return 1;
     return kr_deck_given(deck, &hole->shape) || !kr_deck_faults(deck);

@@ -28,6 +28,8 @@ enum { WIDTH = 4 };
 enum { WIDTH = 2 };
 #endif
 
+enum { ALL = (1 << KR_LANES) - 1 };
+
 typedef double vector __attribute__((vector_size(WIDTH * 8)));
 typedef double vector_anywhere __attribute__((vector_size(WIDTH * 8), aligned(8), may_alias));
 typedef int64_t mask __attribute__((vector_size(WIDTH * 8)));
@@ -67,11 +69,11 @@ INLINE vector only(vector value, mask keep) {
     return (vector)((mask)value & keep);
 }
 
-INLINE int any(mask m) {
+INLINE int any_sign(mask m) {
     int64_t all = 0;
     for (int k = 0; k < WIDTH; k++)
         all |= m[k];
-    return all != 0;
+    return all < 0;
 }
 
 /* Two interleaved Horner chains, in e^2: half the latency of one. `terms` is even. */
@@ -90,39 +92,30 @@ struct lanes {
     size_t node;         /* of the first lane */
     vector u[3], x[3], factor;
     vector sum[3];       /* force in `force`; sum[0] is the energy in `energy` */
-    mask left;           /* lanes in which e left the range */
+    mask left;           /* sign bits of lanes in which e left the range */
 };
 
-/* e of the bonds of a row, with eta and xi; sets `left`. */
-INLINE vector measure(struct lanes *l, const struct kr_kernel_work *work, int dim, size_t j,
-                      const vector *xi, vector inverse_square, vector *eta, mask keep) {
-    vector q = {0};
+/* Add a row of bonds: `scale` is all of c w V/|xi| but the lambdas (force), or c w V |xi|. `whole`:
+ * all lanes live, as in most rows, and `keep` is not looked at. */
+INLINE void add_row(struct lanes *l, const struct kr_kernel_work *work, int dim, int terms,
+                    int energy, int whole, size_t j, const vector *xi, vector inverse_square,
+                    vector scale, mask keep) {
+    const struct kr_bonds *b = work->bonds;
+    vector eta[3], stretched[3], q = {0};
     for (int d = 0; d < dim; d++) {
         eta[d] = load(work->u[d] + j) - l->u[d];
-        q += eta[d] * (2 * xi[d] + eta[d]);
+        stretched[d] = xi[d] + eta[d];
+        q += eta[d] * (xi[d] + stretched[d]);
     }
-    vector e = q * inverse_square;
-    const struct kr_bonds *b = work->bonds;
-    l->left |= ((e > b->flag_above) | (e < b->flag_below)) & keep;
-    return e;
-}
-
-/* Add a row of bonds: `scale` is all of c w V/|xi| but the lambdas (force), or c w V |xi|. */
-INLINE void add_row(struct lanes *l, const struct kr_kernel_work *work, int dim, int terms,
-                    int energy, size_t j, const vector *xi, vector inverse_square, vector scale,
-                    mask keep) {
-    const struct kr_bonds *b = work->bonds;
-    vector eta[3];
-    vector e = measure(l, work, dim, j, xi, inverse_square, eta, keep);
-    vector both = l->factor + load(b->factor + j);
-    if (energy) {
-        vector stored = polynomial(b->fit.store.coefficient, terms, e) * e * e;
-        l->sum[0] += only(stored * scale * both, keep);
-        return;
-    }
-    vector pull = only(polynomial(b->fit.pull.coefficient, terms, e) * e * scale * both, keep);
-    for (int d = 0; d < dim; d++)
-        l->sum[d] += pull * (xi[d] + eta[d]);
+    vector e = whole ? q * inverse_square : only(q * inverse_square, keep);
+    l->left |= (mask)(b->flag_above - e) | (mask)(e - b->flag_below);
+    vector both = scale * (l->factor + load(b->factor + j));
+    const double *coefficient = energy ? b->fit.store.coefficient : b->fit.pull.coefficient;
+    vector pull = polynomial(coefficient, terms, e) * (energy ? e * e : e) * both;
+    if (energy)
+        l->sum[0] += pull;
+    for (int d = 0; d < dim && !energy; d++)
+        l->sum[d] += pull * stretched[d];
 }
 
 INLINE void sum_lattice(struct lanes *l, const struct kr_kernel_work *work, int dim, int terms,
@@ -130,12 +123,17 @@ INLINE void sum_lattice(struct lanes *l, const struct kr_kernel_work *work, int 
     const struct kr_bonds *b = work->bonds;
     for (size_t r = b->first[slice]; r < b->first[slice + 1]; r++) {
         const struct kr_bond_kind *kind = &b->kinds[b->kind[r]];
-        mask keep = mask_of((unsigned)b->living[r] >> (part * WIDTH));
+        const size_t j = l->node + (size_t)(ptrdiff_t)b->offset[r];
+        const vector inverse_square = same(kind->inverse_square);
+        const vector scale = same(energy ? kind->store : kind->pull);
         vector xi[3];
         for (int d = 0; d < dim; d++)
             xi[d] = same(kind->xi[d]);
-        add_row(l, work, dim, terms, energy, l->node + (size_t)(ptrdiff_t)b->offset[r], xi,
-                same(kind->inverse_square), same(energy ? kind->store : kind->pull), keep);
+        if (b->living[r] == ALL)
+            add_row(l, work, dim, terms, energy, 1, j, xi, inverse_square, scale, (mask){0});
+        else
+            add_row(l, work, dim, terms, energy, 0, j, xi, inverse_square, scale,
+                    mask_of((unsigned)b->living[r] >> (part * WIDTH)));
     }
 }
 
@@ -146,7 +144,6 @@ INLINE void sum_general(struct lanes *l, const struct kr_kernel_work *work, int 
     const float *weight = b->weight + KR_LANES * b->first_weight[slice] + part * WIDTH;
     const double c = b->material.micromodulus * (energy ? 0.25 : 0.5);
     for (size_t r = b->first[slice]; r < b->first[slice + 1]; r++) {
-        mask keep = mask_of((unsigned)b->living[r] >> (part * WIDTH));
         size_t j = l->node + (size_t)(ptrdiff_t)b->offset[r];
         vector xi[3], square = {0};
         for (int d = 0; d < dim; d++) {
@@ -162,7 +159,11 @@ INLINE void sum_general(struct lanes *l, const struct kr_kernel_work *work, int 
             weight += KR_LANES;
         }
         inverse += KR_LANES;
-        add_row(l, work, dim, terms, energy, j, xi, root * root, scale, keep);
+        if (b->living[r] == ALL)
+            add_row(l, work, dim, terms, energy, 1, j, xi, root * root, scale, (mask){0});
+        else
+            add_row(l, work, dim, terms, energy, 0, j, xi, root * root, scale,
+                    mask_of((unsigned)b->living[r] >> (part * WIDTH)));
     }
 }
 
@@ -186,7 +187,7 @@ INLINE void do_slice(const struct kr_kernel_work *work, int dim, int terms, int 
             store(work->energy + l.node, l.sum[0]);
         for (int d = 0; d < dim && !energy; d++)
             store(work->force[d] + l.node, l.sum[d]);
-        flag |= (unsigned char)any(l.left);
+        flag |= (unsigned char)any_sign(l.left);
     }
     work->flag[slice] = flag;
 }

@@ -15,6 +15,7 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -43,11 +44,11 @@ static const struct step steps[] = {
     {"kirsch-solve",
      "title nodes material cracks loads no_fail solver output",
      {"plate.nodes.h5"},
-     {"run.h5", "history.csv"}},
-    {"kirsch-track", "track", {"run.h5"}, {"tips.csv", "summary.csv"}},
+     {"run.h5", "run/crack.h5", "history.csv"}},
+    {"kirsch-track", "track", {"run.h5", "run/crack.h5"}, {"tips.csv", "summary.csv"}},
     {"kirsch-plot",
      "title geometry",
-     {"run.h5", "tips.csv", "pores.txt"},
+     {"run.h5", "run/crack.h5", "tips.csv", "pores.txt"},
      {"pictures/damage.png"}},
 };
 enum { STEPS = sizeof steps / sizeof steps[0] };
@@ -89,31 +90,38 @@ static uint64_t stamp_of(const struct job *job, const struct step *step) {
     return hash;
 }
 
-static char *stamp_path(const struct job *job, const struct step *step) {
-    char *name = kr_text(".steps/%s", step->program);
+static char *stamp_path(const struct job *job, const struct step *step, const char *suffix) {
+    char *name = kr_text(".steps/%s%s", step->program, suffix);
     char *path = kr_case_file(&job->c, name);
     kr_free(name);
     return path;
 }
 
-static int is_up_to_date(const struct job *job, const struct step *step) {
+/* The stamp that was left; 0 if there is none. */
+static uint64_t read_stamp(const struct job *job, const struct step *step, const char *suffix) {
     uint64_t stamp = 0;
-    char *path = stamp_path(job, step);
+    char *path = stamp_path(job, step, suffix);
     FILE *file = fopen(path, "r");
-    int there = file && fscanf(file, "%" SCNx64, &stamp) == 1;
+    if (file && fscanf(file, "%" SCNx64, &stamp) != 1)
+        stamp = 0;
     if (file)
         fclose(file);
     kr_free(path);
+    return stamp;
+}
+
+static int is_up_to_date(const struct job *job, const struct step *step) {
+    int there = read_stamp(job, step, "") == stamp_of(job, step);
     for (int k = 0; k < 4 && step->outputs[k] && there; k++) {
         char *output = kr_case_file(&job->c, step->outputs[k]);
         there = access(output, R_OK) == 0;
         kr_free(output);
     }
-    return there && stamp == stamp_of(job, step);
+    return there;
 }
 
-static void write_stamp(const struct job *job, const struct step *step) {
-    char *folder = kr_case_file(&job->c, ".steps"), *path = stamp_path(job, step);
+static void write_stamp(const struct job *job, const struct step *step, const char *suffix) {
+    char *folder = kr_case_file(&job->c, ".steps"), *path = stamp_path(job, step, suffix);
     if (mkdir(folder, 0777) && errno != EEXIST)
         kr_stop(KR_EXIT_STORAGE, "%s: cannot be made: %s", folder, strerror(errno));
     FILE *file = fopen(path, "w");
@@ -126,9 +134,9 @@ static void write_stamp(const struct job *job, const struct step *step) {
 /* ---- steps ---- */
 
 /* The program with the options that this one was given. */
-static char **command_of(const struct job *job, char *program) {
+static const char **command_of(const struct job *job, const char *program) {
     const struct kr_case_arguments *a = &job->arguments;
-    const char **word = KR_NEW(const char *, 8 + 2 * a->n_set);
+    const char **word = KR_NEW(const char *, 9 + 2 * a->n_set);
     size_t n = 0;
     word[n++] = program;
     word[n++] = a->deck;
@@ -144,24 +152,43 @@ static char **command_of(const struct job *job, char *program) {
         word[n++] = "--set";
         word[n++] = a->set[k];
     }
-    return (char **)word;
+    return word;
+}
+
+/* Whether the step was begun with just these inputs and left a checkpoint. */
+static int can_resume(const struct job *job, const struct step *step) {
+    char *path = kr_case_file(&job->c, "checkpoint.h5");
+    int can = !job->force && !strcmp(step->program, "kirsch-solve") && access(path, R_OK) == 0 &&
+              read_stamp(job, step, ".begun") == stamp_of(job, step);
+    kr_free(path);
+    return can;
 }
 
 /* Run one step and wait; what goes wrong has been said by the step itself. */
 static void run_step(const struct job *job, const struct step *step) {
     char *program = kr_child_beside(step->program);
-    char **command = command_of(job, program);
+    const char **command = command_of(job, program);
     int status;
+    if (can_resume(job, step)) {
+        size_t n = 0;
+        while (command[n])
+            n++;
+        command[n] = "--resume";
+    }
+    write_stamp(job, step, ".begun");
     kr_say("%s", step->program);
+    signal(SIGINT, SIG_IGN); /* Ctrl-C is the step's business: it may want to leave a checkpoint */
     pid_t child = fork();
     if (child < 0)
         kr_stop(KR_EXIT_LIBRARY, "cannot start %s: %s", program, strerror(errno));
     if (child == 0) {
-        execv(program, command);
+        signal(SIGINT, SIG_DFL);
+        execv(program, (char **)command);
         _exit(127);
     }
     while (waitpid(child, &status, 0) < 0 && errno == EINTR)
         ;
+    signal(SIGINT, SIG_DFL);
     if (WIFEXITED(status) && WEXITSTATUS(status))
         kr_stop(WEXITSTATUS(status), "%s did not finish; the steps behind it were not run",
                 step->program);
@@ -183,7 +210,7 @@ static void run_steps(const struct job *job) {
             continue;
         }
         run_step(job, step);
-        write_stamp(job, step);
+        write_stamp(job, step, "");
     }
 }
 
@@ -257,12 +284,12 @@ static void explain(const struct job *job) {
     kr_say("about %.0f nodes", cells);
     if (access(nodes, R_OK) == 0) {
         char *program = kr_child_beside("kirsch-solve");
-        char **command = command_of(job, program);
+        const char **command = command_of(job, program);
         size_t n = 0;
         while (command[n])
             n++;
         command[n] = "--explain";
-        execv(program, command);
+        execv(program, (char **)command);
         kr_stop(KR_EXIT_LIBRARY, "cannot start %s: %s", program, strerror(errno));
     }
     kr_say("there are no nodes yet: bonds, time step, memory and time follow from them; run "

@@ -9,8 +9,10 @@
 #include "base/memory.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 struct kr_ledger *kr_ledger_create(const struct kr_body *body) {
     struct kr_ledger *ledger = KR_NEW(struct kr_ledger, 1);
@@ -30,6 +32,7 @@ void kr_ledger_step(struct kr_ledger *ledger, struct kr_boundary *boundary,
                     const struct kr_body *body, double t, double dt) {
     double power = kr_boundary_power(boundary, body, t, dt, 0);
     ledger->external += 0.5 * dt * (ledger->power + power);
+    ledger->most_external = fmax(ledger->most_external, fabs(ledger->external));
     ledger->power = power;
 }
 
@@ -66,6 +69,7 @@ void kr_ledger_begin(struct kr_ledger *ledger, struct kr_boundary *boundary, str
                      const struct kr_crack *crack, double dt) {
     kr_ledger_update(ledger, boundary, body, crack, 0, dt, 1);
     ledger->external = ledger->kinetic + ledger->strain + ledger->fracture;
+    ledger->most_external = fabs(ledger->external);
     ledger->power = kr_boundary_power(boundary, body, 0, dt, 1);
 }
 
@@ -91,11 +95,22 @@ static size_t loads_before(const struct kr_boundary *boundary, size_t k) {
     return before;
 }
 
-struct kr_history *kr_history_open(const char *path, const struct kr_boundary *boundary, int dim) {
+long kr_history_bytes(const struct kr_history *h) {
+    return ftell(h->file);
+}
+
+struct kr_history *kr_history_open(const char *path, const struct kr_boundary *boundary, int dim,
+                                   long bytes) {
     struct kr_history *h = KR_NEW(struct kr_history, 1);
-    *h = (struct kr_history){.file = fopen(path, "w"), .path = kr_text_copy(path), .dim = dim};
-    if (!h->file)
+    *h = (struct kr_history){.path = kr_text_copy(path), .dim = dim};
+    if (bytes > 0 && truncate(path, bytes))
+        kr_stop(KR_EXIT_STORAGE, "%s: cannot be cut back to %ld bytes: %s", path, bytes,
+                strerror(errno));
+    h->file = fopen(path, bytes > 0 ? "r+" : "w");
+    if (!h->file || fseek(h->file, bytes, SEEK_SET))
         kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", path, strerror(errno));
+    if (bytes > 0)
+        return h;
     fprintf(h->file, "step,time [s],kinetic [J/m],strain [J/m],fracture [J/m],external_work [J/m],"
                      "balance [J/m],broken_bonds");
     for (size_t k = 0; k < kr_boundary_count(boundary); k++) {

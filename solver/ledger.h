@@ -12,6 +12,7 @@
 /** Energies at one time [J/m in 2D]. */
 struct kr_ledger {
     double kinetic, strain, fracture, external;
+    double most_external; /* J/m: the most that external was so far, in size */
     double power;   /* W/m, of the loads at the last step */
     double balance; /* external - kinetic - strain - fracture as of the last kr_ledger_update: 0 but
                        for the error of the time integration */
@@ -38,8 +39,13 @@ void kr_ledger_update(struct kr_ledger *ledger, struct kr_boundary *boundary, st
 
 struct kr_history; /* Opaque: the open history.csv. */
 
-/** Begin history.csv with its header. Stops (exit 3) where it cannot be written. */
-struct kr_history *kr_history_open(const char *path, const struct kr_boundary *boundary, int dim);
+/** Begin history.csv with its header; or, with bytes > 0, go on behind so many bytes of it and forget
+ *  the rest. Stops (exit 3) where it cannot be written. */
+struct kr_history *kr_history_open(const char *path, const struct kr_boundary *boundary, int dim,
+                                   long bytes);
+
+/** How long the file is, all written. */
+long kr_history_bytes(const struct kr_history *history);
 void kr_history_write(struct kr_history *history, const struct kr_ledger *ledger,
                       const struct kr_boundary *boundary, const struct kr_crack *crack, long step,
                       double t);

@@ -1,25 +1,34 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Results. The file is flushed after each output, and run.xdmf names only what was flushed, so that
- * a run that is killed leaves all it had written.
+ * Results. See output.h for how a killed run leaves nothing half written.
  */
 #include "output.h"
 
+#include "base/error.h"
 #include "base/h5.h"
 #include "base/memory.h"
 #include "base/provenance.h"
+#include "schedule.h"
 #include "wave.h"
 #include "xdmf.h"
 
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
 struct kr_output {
-    struct kr_h5 *file;
-    char *xdmf_path;
+    const struct kr_case *c;      /* not owned */
     const struct kr_nodes *nodes; /* not owned */
-    size_t corners;               /* length of the topology */
-    double *row;                  /* (n x 3) room */
-    size_t n_steps, room, n_broken;
-    struct kr_xdmf_step *step;
+    char *deck_text;
+    size_t corners; /* length of the topology */
+    double *row;    /* (n x 3) room */
+    size_t n_due, room;
+    struct kr_xdmf_step *due; /* all outputs of the run */
 };
+
+/* ---- run.h5 ---- */
 
 static void write_attributes(struct kr_h5 *file, const struct kr_case *c,
                              const struct kr_nodes *nodes, const struct kr_bonds *bonds,
@@ -32,8 +41,6 @@ static void write_attributes(struct kr_h5 *file, const struct kr_case *c,
     kr_h5_set_int64(file, "/", "n", (int64_t)nodes->n);
     kr_h5_set_int64(file, "/", "bonds", (int64_t)(bonds->count / 2));
     kr_h5_set_double(file, "/", "time_step", dt);
-    kr_h5_set_int64(file, "/", "steps", 0);
-    kr_h5_set_int64(file, "/", "finished", 0);
     kr_h5_set_double(file, "/", "horizon", m->horizon);
     kr_h5_set_double(file, "/", "spacing", nodes->spacing);
     kr_h5_set_double(file, "/", "damage_threshold", c->damage_threshold);
@@ -48,7 +55,7 @@ static void write_attributes(struct kr_h5 *file, const struct kr_case *c,
 
 /* XDMF's mixed topology: 4 for a triangle, 5 for a quadrilateral, else 3 and the number of corners;
  * then the corners. */
-static void write_mesh(struct kr_output *o) {
+static void write_mesh(struct kr_output *o, struct kr_h5 *file) {
     const struct kr_nodes *nodes = o->nodes;
     if (!nodes->n_points)
         return;
@@ -61,96 +68,156 @@ static void write_mesh(struct kr_output *o) {
         for (int64_t k = nodes->first[i]; k < nodes->first[i + 1]; k++)
             topology[o->corners++] = nodes->vertex[k];
     }
-    kr_h5_write_double(o->file, "/mesh/point", nodes->n_points, (size_t)nodes->dim, nodes->point);
-    kr_h5_write_int64(o->file, "/mesh/topology", o->corners, 0, topology);
+    kr_h5_write_double(file, "/mesh/point", nodes->n_points, (size_t)nodes->dim, nodes->point);
+    kr_h5_write_int64(file, "/mesh/topology", o->corners, 0, topology);
     kr_free(topology);
 }
 
+static void write_links(const struct kr_output *o, struct kr_h5 *file) {
+    kr_h5_link(file, "/crack", "run/crack.h5");
+    for (size_t k = 0; k < o->n_due; k++) {
+        char *name = kr_text("/step/%06ld", o->due[k].step);
+        char *other = kr_text("run/%06ld.h5", o->due[k].step);
+        kr_h5_link(file, name, other);
+        kr_free(name);
+        kr_free(other);
+    }
+}
+
+static void write_run(struct kr_output *o, const struct kr_bonds *bonds, double dt) {
+    const struct kr_nodes *nodes = o->nodes;
+    char *path = kr_case_file(o->c, "run.h5");
+    struct kr_h5 *file = kr_h5_create(path, "kirsch run", 1);
+    kr_provenance_write(file, o->deck_text);
+    write_attributes(file, o->c, nodes, bonds, dt);
+    write_mesh(o, file);
+    kr_h5_write_double(file, "/nodes/position", nodes->n, (size_t)nodes->dim, nodes->position);
+    kr_h5_write_double(file, "/nodes/volume", nodes->n, 0, nodes->volume);
+    write_links(o, file);
+    kr_h5_close(file);
+    kr_free(path);
+}
+
+/* ---- the folder of outputs ---- */
+
+static void find_due(struct kr_output *o, double dt, long steps) {
+    const struct kr_schedule schedule = kr_schedule_of(o->c->output_every, &o->c->output_at);
+    for (long step = 0; step <= steps; step++) {
+        double t = (double)step * dt;
+        if (step && step < steps && !kr_schedule_due(&schedule, t, dt))
+            continue;
+        KR_GROW(o->due, o->n_due, o->room);
+        o->due[o->n_due++] = (struct kr_xdmf_step){step, t};
+    }
+}
+
+/* Make the folder, and take out what an older run left there: *.h5 and nothing else. */
+static void clear_folder(const struct kr_case *c, int keep) {
+    char *folder = kr_case_file(c, "run");
+    if (mkdir(folder, 0777) && errno != EEXIST)
+        kr_stop(KR_EXIT_STORAGE, "%s: cannot be made: %s", folder, strerror(errno));
+    DIR *listing = opendir(folder);
+    struct dirent *entry;
+    while (listing && !keep && (entry = readdir(listing))) {
+        size_t length = strlen(entry->d_name);
+        char *path = kr_text("%s/%s", folder, entry->d_name);
+        if (length > 3 && !strcmp(entry->d_name + length - 3, ".h5"))
+            remove(path);
+        kr_free(path);
+    }
+    if (listing)
+        closedir(listing);
+    kr_free(folder);
+}
+
 struct kr_output *kr_output_create(const struct kr_case *c, const struct kr_nodes *nodes,
-                                   const struct kr_bonds *bonds, double dt,
+                                   const struct kr_bonds *bonds, double dt, long steps, int resumed,
                                    const char *deck_text) {
     struct kr_output *o = KR_NEW(struct kr_output, 1);
-    char *path = kr_case_file(c, "run.h5");
-    *o = (struct kr_output){.file = kr_h5_start(path, "kirsch run", 1), .nodes = nodes};
-    o->xdmf_path = kr_case_file(c, "run.xdmf");
+    *o = (struct kr_output){.c = c, .nodes = nodes, .deck_text = kr_text_copy(deck_text)};
     o->row = KR_NEW(double, nodes->n * 3);
-    kr_provenance_write(o->file, deck_text);
-    write_attributes(o->file, c, nodes, bonds, dt);
-    write_mesh(o);
-    kr_h5_write_double(o->file, "/nodes/position", nodes->n, (size_t)nodes->dim, nodes->position);
-    kr_h5_write_double(o->file, "/nodes/volume", nodes->n, 0, nodes->volume);
-    kr_h5_extend_int32(o->file, "/crack/bond", 0, 2, NULL);
-    kr_h5_extend_double(o->file, "/crack/bond_time", 0, 0, NULL);
-    kr_h5_extend_double(o->file, "/crack/bond_energy", 0, 0, NULL);
-    kr_h5_pack(o->file, 1);
-    kr_h5_flush(o->file);
-    kr_free(path);
+    find_due(o, dt, steps);
+    clear_folder(c, resumed);
+    write_run(o, bonds, dt);
     return o;
 }
 
+void kr_output_free(struct kr_output *o) {
+    kr_free(o->deck_text);
+    kr_free(o->row);
+    kr_free(o->due);
+    kr_free(o);
+}
+
+int kr_output_due(const struct kr_output *o, long step) {
+    for (size_t k = 0; k < o->n_due; k++)
+        if (o->due[k].step == step)
+            return 1;
+    return 0;
+}
+
+/* ---- one output ---- */
+
 /* Three components in 2D, too: ParaView warps by nothing less, and packed zeros cost nothing. */
-static void write_vectors(struct kr_output *o, const char *group, const char *name,
+static void write_vectors(struct kr_output *o, struct kr_h5 *file, const char *name,
                           double *const from[3]) {
-    char *path = kr_text("%s/%s", group, name);
     for (size_t i = 0; i < o->nodes->n; i++)
         for (size_t d = 0; d < 3; d++)
             o->row[3 * i + d] = (int)d < o->nodes->dim ? from[d][i] : 0;
-    kr_h5_write_float(o->file, path, o->nodes->n, 3, o->row);
-    kr_free(path);
+    kr_h5_write_float(file, name, o->nodes->n, 3, o->row);
 }
 
 static void write_fields(struct kr_output *o, const struct kr_body *body,
-                         const struct kr_ledger *ledger, const char *group) {
-    write_vectors(o, group, "Displacement", body->u);
-    write_vectors(o, group, "Velocity", ledger->v);
-    char *path = kr_text("%s/Damage", group);
+                         const struct kr_ledger *ledger, long step, double t) {
+    char *name = kr_text("run/%06ld.h5", step), *path = kr_case_file(o->c, name);
+    struct kr_h5 *file = kr_h5_create(path, "kirsch output", 1);
+    kr_h5_set_double(file, "/", "time", t);
+    kr_h5_set_int64(file, "/", "step", step);
+    kr_h5_pack(file, 1);
+    write_vectors(o, file, "/Displacement", body->u);
+    write_vectors(o, file, "/Velocity", ledger->v);
     for (size_t i = 0; i < body->n; i++)
         o->row[i] = kr_bonds_damage(body->bonds, i);
-    kr_h5_write_float(o->file, path, body->n, 0, o->row);
-    kr_free(path);
-    path = kr_text("%s/Stored_Elastic_Energy_Density", group);
-    kr_h5_write_float(o->file, path, body->n, 0, body->energy);
+    kr_h5_write_float(file, "/Damage", body->n, 0, o->row);
+    kr_h5_write_float(file, "/Stored_Elastic_Energy_Density", body->n, 0, body->energy);
+    kr_h5_close(file);
+    kr_free(name);
     kr_free(path);
 }
 
-static void write_crack(struct kr_output *o, const struct kr_crack *crack) {
-    size_t from = o->n_broken, more = crack->count - from;
-    kr_h5_write_double(o->file, "/crack/Damage_Time", crack->n, 0, crack->damage_time);
-    kr_h5_extend_int32(o->file, "/crack/bond", more, 2, crack->pair + 2 * from);
-    kr_h5_extend_double(o->file, "/crack/bond_time", more, 0, crack->time + from);
-    kr_h5_extend_double(o->file, "/crack/bond_energy", more, 0, crack->held + from);
-    o->n_broken = crack->count;
+static void write_crack(const struct kr_output *o, const struct kr_ledger *ledger,
+                        const struct kr_crack *crack, long step) {
+    char *path = kr_case_file(o->c, "run/crack.h5");
+    struct kr_h5 *file = kr_h5_create(path, "kirsch crack", 1);
+    kr_h5_set_int64(file, "/", "steps", step);
+    kr_h5_set_int64(file, "/", "finished", step == o->due[o->n_due - 1].step);
+    kr_h5_set_double(file, "/", "external_work", ledger->external);
+    kr_h5_set_double(file, "/", "kinetic_energy", ledger->kinetic);
+    kr_h5_set_double(file, "/", "strain_energy", ledger->strain);
+    kr_h5_set_double(file, "/", "fracture_work", ledger->fracture);
+    kr_h5_pack(file, 1);
+    kr_h5_write_double(file, "/Damage_Time", crack->n, 0, crack->damage_time);
+    kr_h5_write_int32(file, "/bond", crack->count, 2, crack->pair);
+    kr_h5_write_double(file, "/bond_time", crack->count, 0, crack->time);
+    kr_h5_write_double(file, "/bond_energy", crack->count, 0, crack->held);
+    kr_h5_close(file);
+    kr_free(path);
+}
+
+static void write_xdmf(const struct kr_output *o, long step) {
+    size_t written = 0;
+    char *path = kr_case_file(o->c, "run.xdmf");
+    while (written < o->n_due && o->due[written].step <= step)
+        written++;
+    if (o->nodes->n_points)
+        kr_xdmf_write(path, o->nodes, o->corners, written, o->due);
+    kr_free(path);
 }
 
 void kr_output_write(struct kr_output *o, const struct kr_body *body,
                      const struct kr_ledger *ledger, const struct kr_crack *crack, long step,
                      double t) {
-    char *group = kr_text("/step/%06ld", step);
-    kr_h5_group(o->file, group);
-    kr_h5_set_double(o->file, group, "time", t);
-    kr_h5_set_int64(o->file, group, "step", step);
-    write_fields(o, body, ledger, group);
-    write_crack(o, crack);
-    kr_h5_set_int64(o->file, "/", "steps", step);
-    kr_h5_set_double(o->file, "/", "external_work", ledger->external);
-    kr_h5_set_double(o->file, "/", "kinetic_energy", ledger->kinetic);
-    kr_h5_set_double(o->file, "/", "strain_energy", ledger->strain);
-    kr_h5_set_double(o->file, "/", "fracture_work", ledger->fracture);
-    kr_h5_flush(o->file);
-    KR_GROW(o->step, o->n_steps, o->room);
-    o->step[o->n_steps++] = (struct kr_xdmf_step){step, t};
-    if (o->nodes->n_points)
-        kr_xdmf_write(o->xdmf_path, "run.h5", o->nodes, o->corners, o->n_steps, o->step);
-    kr_free(group);
-}
-
-void kr_output_close(struct kr_output *o, long steps) {
-    kr_h5_set_int64(o->file, "/", "steps", steps);
-    kr_h5_set_int64(o->file, "/", "finished", 1);
-    kr_h5_flush(o->file);
-    kr_h5_close(o->file);
-    kr_free(o->xdmf_path);
-    kr_free(o->row);
-    kr_free(o->step);
-    kr_free(o);
+    write_fields(o, body, ledger, step, t);
+    write_crack(o, ledger, crack, step);
+    write_xdmf(o, step);
 }

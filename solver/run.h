@@ -31,7 +31,10 @@ void kr_run_free(struct kr_run *run);
  *  and an estimate of the time, from a short measurement. */
 void kr_run_explain(const struct kr_run *run);
 
-/** Solve, and write run.h5, run.xdmf and history.csv into the case's folder. */
-void kr_run_solve(struct kr_run *run, const char *deck_text);
+/** Solve, and write run.h5, run.xdmf and history.csv into the case's folder. Checkpoints are written
+ *  every solver.checkpoint_every of wall time and on SIGUSR1, SIGTERM and SIGINT; the last two stop the
+ *  run (exit 7). resume: go on from the last checkpoint; the results are then those of a run that never
+ *  stopped, to the last bit. */
+void kr_run_solve(struct kr_run *run, const char *deck_text, int resume);
 
 #endif

@@ -15,7 +15,9 @@ struct kr_schedule kr_schedule_of(double every, const struct kr_deck_list *at) {
 }
 
 int kr_schedule_due(const struct kr_schedule *schedule, double t, double dt) {
-    double from = t - 0.5 * dt, to = t + 0.5 * dt;
+    /* A step's end and the next one's beginning must be the same number, or rounding could lose a
+     * time that falls between the two. */
+    double step = round(t / dt), from = (step - 0.5) * dt, to = (step + 0.5) * dt;
     if (schedule->every > 0 && floor(to / schedule->every) > floor(from / schedule->every))
         return 1;
     for (size_t k = 0; schedule->at && k < schedule->at->count; k++) {

@@ -39,13 +39,12 @@ static _Noreturn void explode(const struct kr_body *body, const char *what, long
             what, step, 1e6 * t, i, 1e3 * b->x[0][i], 1e3 * b->x[1][i], body->v[1][i], 1e6 * dt);
 }
 
-void kr_watch_check(struct kr_watch *watch, const struct kr_body *body,
-                    const struct kr_ledger *ledger, long step, double t, double dt) {
+void kr_watch_check(const struct kr_body *body, const struct kr_ledger *ledger, long step,
+                    double t, double dt) {
     double inside = ledger->kinetic + ledger->strain + ledger->fracture;
     if (!isfinite(inside) || !isfinite(ledger->external))
         explode(body, "an energy is not a number", step, t, dt);
-    watch->largest_work = fmax(watch->largest_work, fabs(ledger->external));
     /* In the first steps the work is near zero and its quadrature coarse. */
-    if (step > 50 && inside > FAR_TOO_MUCH * watch->largest_work && inside > 0)
+    if (step > 50 && inside > FAR_TOO_MUCH * ledger->most_external && inside > 0)
         explode(body, "there is more than twice the energy that went in", step, t, dt);
 }

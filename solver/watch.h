@@ -7,13 +7,9 @@
 
 #include "ledger.h"
 
-struct kr_watch {
-    double largest_work; /* J/m: the most that went in so far */
-};
-
 /** Check the ledger just updated. Stops (exit 4) with node, time and likely cause if a number is NaN
  *  or infinite, or if there is far more energy than went in: the time step is too large then. */
-void kr_watch_check(struct kr_watch *watch, const struct kr_body *body,
-                    const struct kr_ledger *ledger, long step, double t, double dt);
+void kr_watch_check(const struct kr_body *body, const struct kr_ledger *ledger, long step,
+                    double t, double dt);
 
 #endif

@@ -13,14 +13,13 @@ struct kr_xdmf_step {
     double time; /* s */
 };
 
-/** Write the sidecar of a results file; appears whole or not at all.
+/** Write the sidecar of run.h5 and run/KKKKKK.h5; appears whole or not at all.
  *
  *  in  path       of the sidecar
- *  in  results    name of the HDF5 file, beside it
  *  in  corners    length of /mesh/topology
  *  Stops (exit 3) where it cannot be written.
  */
-void kr_xdmf_write(const char *path, const char *results, const struct kr_nodes *nodes,
-                   size_t corners, size_t n_steps, const struct kr_xdmf_step *step);
+void kr_xdmf_write(const char *path, const struct kr_nodes *nodes, size_t corners, size_t n_steps,
+                   const struct kr_xdmf_step *step);
 
 #endif

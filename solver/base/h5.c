@@ -253,6 +253,14 @@ void kr_h5_group(struct kr_h5 *file, const char *name) {
     H5Gclose(group);
 }
 
+void kr_h5_link(struct kr_h5 *file, const char *name, const char *other) {
+    hid_t links = kr_h5_links();
+    herr_t failed = H5Lcreate_external(other, "/", file->id, name, links, H5P_DEFAULT);
+    H5Pclose(links);
+    if (failed < 0)
+        kr_h5_fail_write(file, name);
+}
+
 void kr_h5_remove(struct kr_h5 *file, const char *name) {
     if (kr_h5_has(file, name) && H5Ldelete(file->id, name, H5P_DEFAULT) < 0)
         kr_h5_fail_write(file, name);

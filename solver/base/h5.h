@@ -55,6 +55,10 @@ void kr_h5_pack(struct kr_h5 *file, int packed);
 /** Make a group (to hang attributes on); one that exists is kept. */
 void kr_h5_group(struct kr_h5 *file, const char *name);
 
+/** Make the name stand for the root of another HDF5 file; its path is taken from this file's folder,
+ *  and it need not be there yet. */
+void kr_h5_link(struct kr_h5 *file, const char *name, const char *other);
+
 /** Whether there is a group or array of this name. */
 int kr_h5_has(const struct kr_h5 *file, const char *name);
 

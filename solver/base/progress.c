@@ -15,10 +15,10 @@ double kr_progress_clock(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-struct kr_progress kr_progress_begin(const char *what, double total) {
+struct kr_progress kr_progress_begin(const char *what, double done, double total) {
     double now = kr_progress_clock();
     return (struct kr_progress){
-        .what = what, .total = total, .begun = now, .shown = now, .terminal = isatty(1)};
+        .what = what, .first = done, .total = total, .begun = now, .shown = now, .terminal = isatty(1)};
 }
 
 void kr_progress_show(struct kr_progress *p, double done, const char *format, ...) {
@@ -28,7 +28,7 @@ void kr_progress_show(struct kr_progress *p, double done, const char *format, ..
         return;
     p->shown = now;
     p->tenth = tenth;
-    double rate = done / (now - p->begun), left = rate > 0 ? (p->total - done) / rate : 0;
+    double rate = (done - p->first) / (now - p->begun), left = rate > 0 ? (p->total - done) / rate : 0;
     va_list arguments;
     printf("%s  %3.0f %%  %.0f of %.0f %s, ", p->terminal ? "\r\033[K" : "",
            100 * done / p->total, done, p->total, p->what);
@@ -41,7 +41,7 @@ void kr_progress_show(struct kr_progress *p, double done, const char *format, ..
 
 void kr_progress_end(struct kr_progress *p, double amount, const char *unit) {
     double seconds = kr_progress_clock() - p->begun;
-    printf("%s  %.0f %s in %.1f s: %.3g %s a second\n", p->terminal ? "\r\033[K" : "", p->total,
-           p->what, seconds, amount / (seconds > 0 ? seconds : 1e-9), unit);
+    printf("%s  %.0f %s in %.1f s: %.3g %s a second\n", p->terminal ? "\r\033[K" : "",
+           p->total - p->first, p->what, seconds, amount / (seconds > 0 ? seconds : 1e-9), unit);
     fflush(stdout);
 }

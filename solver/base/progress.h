@@ -8,14 +8,15 @@
 
 struct kr_progress {
     const char *what;   /* "steps" */
-    double total, begun, shown; /* amount of work; seconds */
+    double first, total, begun, shown; /* amounts of work; seconds */
     int tenth, terminal;
 };
 
 /** Seconds of wall time since some fixed moment. */
 double kr_progress_clock(void);
 
-struct kr_progress kr_progress_begin(const char *what, double total);
+/** Begin work that is `done` of `total` already. */
+struct kr_progress kr_progress_begin(const char *what, double done, double total);
 
 /** Say how far it is, if it is time to; the format adds what the work itself has to say. */
 void kr_progress_show(struct kr_progress *progress, double done, const char *format, ...)

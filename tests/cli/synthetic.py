@@ -154,12 +154,12 @@ def write_run(path, area, position, h, steps, end):
     with h5py.File(path, "w") as f:
         f.attrs.update(format="kirsch run", version=1, dim=2, program="synthetic", machine="",
                        deck="", deck_hash="", nodes_file="plate.nodes.h5", n=len(area),
-                       time_step=TIME_STEP, steps=last, finished=1, horizon=horizon, spacing=h,
-                       damage_threshold=0.35, rayleigh_speed=RAYLEIGH, bonds=24 * len(area),
-                       external_work=4.0, kinetic_energy=1.0, strain_energy=2.5,
-                       fracture_work=0.49)
+                       time_step=TIME_STEP, horizon=horizon, spacing=h,
+                       damage_threshold=0.35, rayleigh_speed=RAYLEIGH, bonds=24 * len(area))
         f["/nodes/position"], f["/nodes/volume"] = position, area
         f["/crack/Damage_Time"], f["/crack/bond_time"] = times, broken
+        f["/crack"].attrs.update(steps=last, finished=1, external_work=4.0, kinetic_energy=1.0,
+                                 strain_energy=2.5, fracture_work=0.49)
         for k in np.unique(np.linspace(0, last, steps + 1).astype(int)):
             time, group = k * TIME_STEP, f.create_group("/step/%06d" % k)
             group.attrs.update(time=time, step=int(k))

@@ -123,9 +123,9 @@ static void correct(void *argument) {
 static void test_surface_factors_refuse_nonsense(void **state) {
     int wire = 0;
     (void)state;
-    kr_check_stops(correct, &wire, KR_EXIT_NUMBERS, "a bond must not push apart");
+    kr_check_stops(correct, &wire, KR_EXIT_NUMBERS, "make their bond push");
     wire = 1;
-    kr_check_stops(correct, &wire, KR_EXIT_NUMBERS, "the surface factor");
+    kr_check_stops(correct, &wire, KR_EXIT_NUMBERS, "did not converge");
 }
 
 int main(void) {

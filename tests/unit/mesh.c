@@ -5,18 +5,10 @@
 #include "test.h"
 
 #include "builder.h"
+#include "frame.h"
 #include "lattice.h"
 #include "mesh.h"
 #include "side.h"
-
-/** n edges from lattice point (i, j), each a step of (di, dj), as a group. */
-static void side(struct kr_builder *builder, const char *name, size_t n, size_t i, size_t j,
-                 size_t di, size_t dj) {
-    for (size_t k = 0; k < n; k++)
-        kr_builder_edge(builder, kr_builder_lattice_point(builder, i + k * di, j + k * dj),
-                        kr_builder_lattice_point(builder, i + (k + 1) * di, j + (k + 1) * dj));
-    kr_builder_group_edges(builder, name);
-}
 
 /** Three squares by two of 0.5 m, with edges and groups. */
 static struct kr_mesh *small(void) {
@@ -25,10 +17,7 @@ static struct kr_mesh *small(void) {
     for (size_t j = 0; j < 2; j++)
         for (size_t i = 0; i < 3; i++)
             kr_builder_square(&builder, i, j);
-    side(&builder, "left", 2, 0, 0, 0, 1);
-    side(&builder, "right", 2, 3, 0, 0, 1);
-    side(&builder, "bottom", 3, 0, 0, 1, 0);
-    side(&builder, "top", 3, 0, 2, 1, 0);
+    kr_frame_edges(&builder);
     return kr_builder_end(&builder);
 }
 

@@ -148,7 +148,7 @@ static void an_impossible_request_ends(void **unused) {
     c.pores.attempts = 5000;
     size_t placed = kr_pores_throw(&c, pore, &throws);
     assert_int_equal(throws, 5000);
-    assert_true(placed > 40 && placed < 120);
+    assert_true(placed > 60 && placed < 200);
     check_rules(&c, pore, placed);
     c.pores.edge_diameters = 20; /* no place at all */
     assert_int_equal(kr_pores_throw(&c, pore, &throws), 0);

@@ -365,16 +365,17 @@ static void write_record(const struct kr_record *r, const char *fault) {
     double time[2] = {r->first_break, r->first_break + step};
     kr_h5_set_int64(file, "/", "dim", strcmp(fault, "dim") ? 2 : 3);
     kr_h5_set_double(file, "/", "time_step", strcmp(fault, "time_step") ? r->time_step : 0);
-    kr_h5_set_int64(file, "/", "steps", r->steps);
-    kr_h5_set_int64(file, "/", "finished", 1);
     kr_h5_set_double(file, "/", "horizon", r->horizon);
     kr_h5_set_double(file, "/", "spacing", r->spacing);
     kr_h5_set_double(file, "/", "rayleigh_speed", r->rayleigh_speed);
     kr_h5_set_int64(file, "/", "bonds", 77);
-    kr_h5_set_double(file, "/", "external_work", 4);
-    kr_h5_set_double(file, "/", "kinetic_energy", 1);
-    kr_h5_set_double(file, "/", "strain_energy", 2.5);
-    kr_h5_set_double(file, "/", "fracture_work", 0.49);
+    kr_h5_group(file, "/crack");
+    kr_h5_set_int64(file, "/crack", "steps", r->steps);
+    kr_h5_set_int64(file, "/crack", "finished", 1);
+    kr_h5_set_double(file, "/crack", "external_work", 4);
+    kr_h5_set_double(file, "/crack", "kinetic_energy", 1);
+    kr_h5_set_double(file, "/crack", "strain_energy", 2.5);
+    kr_h5_set_double(file, "/crack", "fracture_work", 0.49);
     kr_h5_write_double(file, "/nodes/position", r->n, 2, r->position);
     if (strcmp(fault, "nan") == 0)
         r->damage_time[5] = NAN;

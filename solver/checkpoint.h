@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Checkpoints: all that a run needs to go on from a step as if it had never stopped, to the last bit,
+ * with any number of threads.
+ */
+#ifndef KR_CHECKPOINT_H
+#define KR_CHECKPOINT_H
+
+#include "body.h"
+#include "case.h"
+#include "crack.h"
+#include "ledger.h"
+
+/** Where a run stands, between two steps: `step` is the next one, body->v is half a step behind it. */
+struct kr_checkpoint {
+    long step, steps;
+    double dt;             /* s */
+    long history;          /* bytes of history.csv that are valid */
+    const char *deck_text; /* resolved deck; a checkpoint of another deck is refused */
+    struct kr_body *body;
+    struct kr_ledger *ledger;
+    struct kr_crack *crack;
+};
+
+/** Write checkpoint.h5 into the case's folder, whole or not at all; the one before is kept as
+ *  checkpoint-before.h5. Stops (exit 3) where it cannot be written. */
+void kr_checkpoint_write(const struct kr_case *c, const struct kr_checkpoint *at);
+
+/** Read the newest checkpoint that is whole into body, ledger, crack, step and history. Stops
+ *  (exit 2) if there is none, or if it was made by another deck (naming the first key that differs),
+ *  other nodes or another time step. */
+void kr_checkpoint_read(const struct kr_case *c, struct kr_checkpoint *at);
+
+/** Remove the case's checkpoints: the run is done. */
+void kr_checkpoint_remove(const struct kr_case *c);
+
+#endif

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Signals that ask a run for a checkpoint: SIGUSR1 to write one and go on, SIGTERM and SIGINT to write
+ * one and stop.
+ */
+#ifndef KR_INTERRUPT_H
+#define KR_INTERRUPT_H
+
+enum kr_interrupt { KR_INTERRUPT_NONE, KR_INTERRUPT_CHECKPOINT, KR_INTERRUPT_STOP };
+
+/** Listen from now on. */
+void kr_interrupt_begin(void);
+
+/** What was asked for since the last call; a stop stays asked for. */
+enum kr_interrupt kr_interrupt_asked(void);
+
+#endif

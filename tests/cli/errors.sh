@@ -1,0 +1,54 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# What kirsch-solve cannot do it says, with the exit code of its kind (docs/formats.md).
+prefix=errors
+. tests/cli/steps
+write_case
+
+# The nodes are made once; then one thing is wrong.
+solve() { # option...
+    [ -f "$work/plate/plate.nodes.h5" ] || steps "$work/plate" "mesh nodes" || return
+    "$build/kirsch-solve" --output "$work/plate" "$@" "$work/case.yaml"
+}
+
+no_nodes() {
+    stops 2 "plate.nodes.h5" "$build/kirsch-solve" --output "$work/empty" "$work/case.yaml"
+}
+
+cut_nodes() { # bytes kept
+    solve --set solver.end_time='5 us' || return
+    mkdir -p "$work/cut"
+    head -c "$1" "$work/plate/plate.nodes.h5" >"$work/cut/plate.nodes.h5"
+    stops 2 "plate.nodes.h5" "$build/kirsch-solve" --output "$work/cut" "$work/case.yaml"
+}
+
+# A results file in the place of the nodes.
+other_file() {
+    solve --set solver.end_time='5 us' || return
+    mkdir -p "$work/other"
+    cp "$work/plate/run.h5" "$work/other/plate.nodes.h5"
+    stops 2 "kirsch run" "$build/kirsch-solve" --output "$work/other" "$work/case.yaml"
+}
+
+check no_node_file no_nodes
+check empty_node_file cut_nodes 0
+check node_file_cut_in_its_head cut_nodes 700
+check node_file_cut_in_its_data cut_nodes 20000
+check results_as_node_file other_file
+check nodes_of_another_horizon stops 2 "made for 0.0015 m; run kirsch-nodes again" \
+    solve --set nodes.horizon='1.6 mm'
+check nodes_of_another_model stops 2 "made for 'plane-stress'" solve --set material.model=plane-strain
+check nodes_of_another_weight stops 2 "made for 'hhb'" solve --set nodes.partial_volume=none
+check nodes_of_another_deformation stops 2 "made for 'mean-over-axes'" \
+    solve --set nodes.surface_deformation=isotropic
+check unknown_set stops 2 "no set is called 'upper'; there are" solve --set loads.0.set=upper
+check unknown_no_fail_set stops 2 "no set is called 'rim'" solve --set no_fail.0=rim
+check traction_on_an_area stops 2 "belongs to no boundary" solve --set loads.0.set=plate
+check time_step_above_the_stable_one stops 2 "are unstable" solve --set solver.time_step='0.9 us'
+check load_not_a_number stops 4 "the load on set 'top' is" \
+    solve --set loads.0.traction='[free, 1e6*sqrt(-1-t) Pa]'
+check load_infinite_in_one_place stops 4 "the load on set 'top' is" \
+    solve --set loads.0.traction='[free, 1e6/(x-x) Pa]'
+check folder_that_is_a_file stops 3 "no folder" \
+    "$build/kirsch-solve" --output "$work/case.yaml" "$work/case.yaml"
+echo "1..$count"

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * The polynomials of the fast loop against the laws they stand in for.
+ */
+#include "test.h"
+
+#include "fit.h"
+
+static double value(const struct kr_polynomial *p, double e) {
+    double sum = 0;
+    for (int k = p->terms - 1; k >= 0; k--)
+        sum = sum * e + p->coefficient[k];
+    return sum;
+}
+
+/* s = sqrt(1 + e) - 1 in extended precision, so that the wanted values are good to the last bit;
+ * near rest, where laws are linear, by the series. */
+static double stretch(double e) {
+    return (double)(sqrtl(1 + (long double)e) - 1);
+}
+
+static void check_fit(const struct kr_law *law, double s0) {
+    struct kr_material m = {.law = law, .critical_stretch = s0};
+    struct kr_fit fit = kr_fit_make(&m);
+    double pull = 0, store = 0;
+    assert_true(fit.range >= 0.02 && fit.range <= 0.5);
+    if (isfinite(s0) && s0 * (2 + s0) < 0.49)
+        assert_true(fit.range > s0 * (2 + s0)); /* bonds are still inside when they break */
+    for (int k = -1000; k <= 1000; k++) {
+        double e = fit.range * (k + 0.113) / 1000.2, s = stretch(e);
+        pull = fmax(pull, fabs(value(&fit.pull, e) * (1 + s) * e / law->force(s) - 1));
+        store = fmax(store, fabs(value(&fit.store, e) * e * e / law->energy(s) - 1));
+    }
+    kr_figure("%s s0 %-6.4g: range %.3f, %d and %d terms, pull off by %.1e, energy by %.1e",
+              law->name, s0, fit.range, fit.pull.terms, fit.store.terms, pull, store);
+    /* A range of 0.5 needs a root of 3.7^-n: 24 terms for rounding; sums of them lose some bits. */
+    kr_check_near(pull, 0, 1e-13);
+    kr_check_near(store, 0, 1e-13);
+}
+
+static void test_fit_is_the_law(void **state) {
+    static const double s0[] = {0.0013, 0.0074, 0.0232, 0.061, 0.13, 0.31, INFINITY};
+    (void)state;
+    for (size_t law = 0; law < kr_laws_count; law++)
+        for (size_t k = 0; k < sizeof s0 / sizeof *s0; k++)
+            check_fit(kr_laws[law], s0[k]);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_fit_is_the_law),
+    };
+    kr_run_tests(tests);
+}
