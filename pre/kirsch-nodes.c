@@ -44,6 +44,10 @@ static struct kr_nodes *read_nodes(const struct kr_case_arguments *arguments, st
             kr_stop(KR_EXIT_INPUT, "%s: %s", path, fault);
         nodes = kr_convert(mesh);
     }
+    if (!nodes->n_points && (c->partial_volume == KR_PARTIAL_VOLUME_EXACT ||
+                             c->partial_volume == KR_PARTIAL_VOLUME_EXACT_CENTROID))
+        kr_deck_fault(deck, &c->partial_volume,
+                      "exact shares need the cells of a mesh, and %s has none; take hhb", path);
     kr_convert_sets(deck, c, mesh, nodes);
     kr_boundary_check(deck, c, nodes);
     kr_deck_finish(deck);
@@ -76,12 +80,13 @@ static void correct(const struct kr_case *c, struct kr_nodes *nodes) {
     if (c->surface_correction == KR_SURFACE_NONE)
         return;
     double begun = kr_progress_clock();
-    struct kr_surface_report r =
-        kr_surface_correct(nodes, &material, c->partial_volume, c->surface_deformation);
+    struct kr_surface_report r = kr_surface_make(nodes, &material, c->surface_correction,
+                                                 c->partial_volume, c->surface_deformation);
     const double *least = nodes->position + 2 * r.least_at, *most = nodes->position + 2 * r.most_at;
-    kr_say("  surface factors %.4f at (%.3f, %.3f) mm to %.4f at (%.3f, %.3f) mm; %d iterations to "
-           "%.1e in %.2f s", r.least, 1e3 * least[0], 1e3 * least[1], r.most, 1e3 * most[0],
-           1e3 * most[1], r.iterations, r.residual, kr_progress_clock() - begun);
+    kr_say("  surface factors (%s) %.4f at (%.3f, %.3f) mm to %.4f at (%.3f, %.3f) mm; %d iterations "
+           "to %.1e in %.2f s", made->surface_correction, r.least, 1e3 * least[0], 1e3 * least[1],
+           r.most, 1e3 * most[0], 1e3 * most[1], r.iterations, r.residual,
+           kr_progress_clock() - begun);
 }
 
 int main(int argc, char **argv) {

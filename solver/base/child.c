@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Children by fork and execv. The time limit is alarm(), which survives execv: the kernel keeps
+ * Children by fork and execve. The time limit is alarm(), which survives execve: the kernel keeps
  * it, even if the child hangs in a loop of its own.
+ *
+ * gmsh orders some of its work by the addresses of its objects. So that a region is filled the same
+ * way every time, a child starts with an empty environment (no MALLOC_... or LD_PRELOAD) and
+ * without random addresses.
  */
 #include "base/child.h"
 
@@ -15,6 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/personality.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -42,8 +47,8 @@ void kr_child_prepare(struct kr_child *child) {
 }
 
 /** In the child: only calls that are safe between fork and exec. */
-_Noreturn static void become(const char *program, const int file[3], unsigned seconds,
-                             pid_t parent) {
+_Noreturn static void become(const char *program, char *const *environment, const int file[3],
+                             unsigned seconds, pid_t parent) {
     char *arguments[] = {(char *)(uintptr_t)program, NULL};
     sigset_t none;
     sigemptyset(&none);
@@ -56,13 +61,17 @@ _Noreturn static void become(const char *program, const int file[3], unsigned se
     for (int k = 0; k < 3; k++)
         if (dup2(file[k], k) < 0)
             _exit(NOT_STARTED);
-    execv(program, arguments);
+    personality(ADDR_NO_RANDOMIZE); /* where this is forbidden, nothing is lost but certainty */
+    execve(program, arguments, environment);
     _exit(NOT_STARTED);
 }
 
 void kr_child_start(struct kr_child *child, const char *program, unsigned seconds) {
     int file[3] = {fileno(child->in), fileno(child->out), fileno(child->said)};
     pid_t parent = getpid();
+    const char *libraries = getenv("LD_LIBRARY_PATH");
+    char *kept = libraries ? kr_text("LD_LIBRARY_PATH=%s", libraries) : NULL;
+    char *environment[] = {kept, NULL};
     fflush(NULL);
     rewind(child->in);
     /* dup2 onto itself would keep the close-on-exec mark; files in memory stand above 0, 1, 2
@@ -75,7 +84,8 @@ void kr_child_start(struct kr_child *child, const char *program, unsigned second
     if (child->pid < 0)
         kr_stop(KR_EXIT_LIBRARY, "%s cannot be started: %s", program, strerror(errno));
     if (child->pid == 0)
-        become(program, file, seconds, parent);
+        become(program, environment, file, seconds, parent);
+    kr_free(kept);
 }
 
 pid_t kr_child_wait(int *status) {
