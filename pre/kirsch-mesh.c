@@ -28,7 +28,8 @@ int main(int argc, char **argv) {
                              .height = c.height,
                              .spacing = c.spacing,
                              .padding = c.padding > 0 ? c.padding : c.horizon,
-                             .grid = (enum kr_grid)c.grid};
+                             .grid = (enum kr_grid)c.grid,
+                             .outline = c.outline};
     if (arguments.explain) {
         kr_say("lattice of %.0f by %.0f cells of %.9g mm, boxes %.9g mm around %zu holes and %lld "
                "pores",

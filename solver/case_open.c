@@ -223,7 +223,7 @@ static struct kr_case_hole *read_pores(const struct kr_case *c, const char *path
         kr_stop(KR_EXIT_INPUT, "%s cannot be read: %s; kirsch-pores makes it", path,
                 strerror(errno));
     for (size_t number = 1; getline(&line, &line_room, file) >= 0; number++) {
-        struct kr_case_hole hole;
+        struct kr_case_hole hole = {.radius = 0};
         int found = read_hole(line, &hole);
         if (found < 0)
             kr_stop(KR_EXIT_INPUT, "%s:%zu: found '%.*s', expected 'x y radius' in metres", path,

@@ -174,7 +174,7 @@ static const struct row {
     {"deck_list_as_a_section", "    - {centre: [10 mm, 12.5 mm], radius: 2 mm}",
      "    centre: [10 mm, 12.5 mm]", NULL, NULL,
      "case.yaml:6:5: geometry.holes: found a section, expected a list ('- ...') of items with "
-     "centre, radius\n"
+     "centre, radius, shape, radii, size, length, width, points, corner_radius, angle\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_item_as_a_text", "    - {centre: [10 mm, 12.5 mm], radius: 2 mm}", "    - big", NULL,
      NULL,
