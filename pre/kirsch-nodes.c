@@ -9,26 +9,31 @@
 #include "convert.h"
 #include "mesh.h"
 #include "nodes_dat.h"
+#include "partition.h"
 #include "surface.h"
+#include "weight.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const char usage[] =
-    "kirsch-nodes [MESH] case.yaml\n"
+    "kirsch-nodes [--partition N] [MESH] case.yaml\n"
     "\n"
     "Turns the cells of a mesh into nodes. MESH is a gmsh file (NAME.msh; left out: plate.msh in the\n"
     "case's folder) or the plates paper's nodes.dat (NAME.dat). Writes plate.nodes.h5 and nodes.dat\n"
-    "into the case's folder.";
+    "into the case's folder.\n"
+    "\n"
+    "  --partition N  also divide the nodes into N parts with about as many bonds each (METIS)";
 
 static int ends_with(const char *text, const char *end) {
     size_t length = strlen(text), tail = strlen(end);
     return length >= tail && !strcmp(text + length - tail, end);
 }
 
-/* The nodes of the mesh named on the command line, or of the case's own. */
+/* The nodes of the mesh named on the command line, or of the case's own; settles what hangs on them. */
 static struct kr_nodes *read_nodes(const struct kr_case_arguments *arguments, struct kr_deck *deck,
-                                   const struct kr_case *c) {
+                                   struct kr_case *c) {
     if (arguments->n_left > 1)
         kr_stop(KR_EXIT_INPUT, "found the argument '%s'; expected one mesh at the most",
                 arguments->left[1]);
@@ -44,10 +49,7 @@ static struct kr_nodes *read_nodes(const struct kr_case_arguments *arguments, st
             kr_stop(KR_EXIT_INPUT, "%s: %s", path, fault);
         nodes = kr_convert(mesh);
     }
-    if (!nodes->n_points && (c->partial_volume == KR_PARTIAL_VOLUME_EXACT ||
-                             c->partial_volume == KR_PARTIAL_VOLUME_EXACT_CENTROID))
-        kr_deck_fault(deck, &c->partial_volume,
-                      "exact shares need the cells of a mesh, and %s has none; take hhb", path);
+    c->partial_volume = kr_weights_choose(deck, c, nodes);
     kr_convert_sets(deck, c, mesh, nodes);
     kr_boundary_check(deck, c, nodes);
     kr_deck_finish(deck);
@@ -89,15 +91,54 @@ static void correct(const struct kr_case *c, struct kr_nodes *nodes) {
            kr_progress_clock() - begun);
 }
 
+/* Take --partition N or --partition=N out of the arguments left; 0 where it is not there. */
+static int take_partition(struct kr_case_arguments *arguments) {
+    static const char option[] = "--partition";
+    const size_t length = sizeof option - 1;
+    for (size_t k = 0; k < arguments->n_left; k++) {
+        const char *text = arguments->left[k], *value = text + length + 1;
+        size_t used = 1;
+        if (strncmp(text, option, length) || (text[length] && text[length] != '='))
+            continue;
+        if (!text[length]) {
+            used = 2;
+            value = k + 1 < arguments->n_left ? arguments->left[k + 1] : "";
+        }
+        char *end;
+        long parts = strtol(value, &end, 10);
+        if (!*value || *end || parts < 1 || parts > 1000000)
+            kr_stop(KR_EXIT_INPUT, "found '--partition %s'; expected a number of parts, 1 or more",
+                    value);
+        memmove(arguments->left + k, arguments->left + k + used,
+                (arguments->n_left - k - used) * sizeof *arguments->left);
+        arguments->n_left -= used;
+        return (int)parts;
+    }
+    return 0;
+}
+
+static void divide(const struct kr_case *c, struct kr_nodes *nodes, int parts) {
+    if ((size_t)parts > nodes->n)
+        kr_stop(KR_EXIT_INPUT, "found --partition %d; there are only %zu nodes", parts, nodes->n);
+    struct kr_partition_report r = kr_partition_make(nodes, c->horizon, c->partial_volume, parts);
+    kr_say("  %d parts of %zu to %zu nodes: %zu of %zu bonds between parts (%.2f %%), the heaviest "
+           "part %.3f of the mean; %.2f s",
+           parts, r.least, r.most, r.cut, r.bonds, 100 * (double)r.cut / (double)r.bonds, r.balance,
+           r.seconds);
+}
+
 int main(int argc, char **argv) {
     struct kr_case_arguments arguments;
     struct kr_case c;
     kr_error_program("kirsch-nodes");
     kr_case_arguments(argc, argv, usage, &arguments);
+    int parts = take_partition(&arguments);
     struct kr_deck *deck = kr_case_open(&arguments, &c);
     struct kr_nodes *nodes = read_nodes(&arguments, deck, &c);
     report_nodes(nodes);
     correct(&c, nodes);
+    if (parts)
+        divide(&c, nodes, parts);
 
     char *path = kr_case_file(&c, "plate.nodes.h5"), *dat = kr_case_file(&c, "nodes.dat");
     char *deck_text = kr_deck_resolved(deck, NULL);
