@@ -16,7 +16,7 @@
 
 #include <math.h>
 
-enum { MOST_ITERATIONS = 1000, FINE = 25 };
+enum { MOST_ITERATIONS = 5000, FINE = 25 };
 static const double STRAIN = 1e-4, TOLERANCE = 1e-7;
 
 /* Strains of the deformations, and how many there are to take the mean over. */
@@ -50,8 +50,7 @@ double kr_surface_reference(const struct kr_material *m, int partial_volume, int
                 double xi[2] = {a * spacing, b * spacing};
                 if (!a && !b)
                     continue;
-                double phi = kr_weight(partial_volume, hypot(xi[0], xi[1]), m->horizon, spacing,
-                                       spacing);
+                double phi = kr_weight_lattice(partial_volume, 2, xi, m->horizon, spacing);
                 if (phi > 0)
                     sum += 0.5 * phi * bond_energy(m, xi, strain[k]) * spacing * spacing;
             }
@@ -141,7 +140,26 @@ static void solve(struct problem *p, double *lambda, struct kr_surface_report *r
     kr_free(image);
 }
 
-static void report_extremes(const struct kr_nodes *nodes, struct kr_surface_report *report) {
+/* The paper's iteration, for weights that are not symmetric. */
+static void repeat(struct problem *p, double *lambda, struct kr_surface_report *report) {
+    size_t n = p->body->n;
+    const double *volume = p->body->bonds->volume;
+    double *image = KR_NEW(double, n);
+    for (;; report->iterations++) {
+        report->residual = 0;
+        apply(p, lambda, image);
+        for (size_t i = 0; i < n; i++)
+            report->residual =
+                fmax(report->residual, fabs(image[i] / (volume[i] * report->reference) - 1));
+        if (!(report->residual > TOLERANCE) || report->iterations == MOST_ITERATIONS)
+            break;
+        for (size_t i = 0; i < n; i++)
+            lambda[i] *= volume[i] * report->reference / image[i];
+    }
+    kr_free(image);
+}
+
+void kr_surface_extremes(const struct kr_nodes *nodes, struct kr_surface_report *report) {
     for (size_t i = 0; i < nodes->n; i++) {
         if (nodes->factor[i] < nodes->factor[report->least_at])
             report->least_at = i;
@@ -178,18 +196,18 @@ struct kr_surface_report kr_surface_correct(struct kr_nodes *nodes,
                                                                          deformation)};
     struct kr_material whole = *material;
     whole.critical_stretch = INFINITY;
+    kr_surface_clear(nodes);
     struct kr_bonds *bonds = kr_bonds_create(nodes, &whole, partial_volume);
     struct problem problem = {.body = kr_body_create(bonds), .diagonal = KR_NEW(double, nodes->n)};
     problem.count = strains_of(deformation, problem.strain);
-    for (size_t i = 0; i < nodes->n; i++)
-        nodes->factor[i] = 1;
-    solve(&problem, nodes->factor, &report);
+    (partial_volume == KR_PARTIAL_VOLUME_HHB_ONE_SIDED ? repeat : solve)(&problem, nodes->factor,
+                                                                         &report);
     if (!(report.residual <= TOLERANCE))
         kr_stop(KR_EXIT_NUMBERS,
                 "the surface factors did not converge: off by %.2g after %d iterations; look for "
                 "nodes with few neighbours, or take surface_correction: none",
                 report.residual, report.iterations);
-    report_extremes(nodes, &report);
+    kr_surface_extremes(nodes, &report);
     for (size_t i = 0; i < nodes->n; i++)
         bonds->factor[i] = nodes->factor[i];
     refuse_pushing(bonds);
@@ -197,4 +215,23 @@ struct kr_surface_report kr_surface_correct(struct kr_nodes *nodes,
     kr_bonds_free(bonds);
     kr_free(problem.diagonal);
     return report;
+}
+
+void kr_surface_clear(struct kr_nodes *nodes) {
+    for (size_t i = 0; i < nodes->n; i++)
+        nodes->factor[i] = 1;
+    nodes->axis_factor = kr_free(nodes->axis_factor);
+    nodes->pairing = KR_PAIRING_MEAN;
+}
+
+struct kr_surface_report kr_surface_make(struct kr_nodes *nodes, const struct kr_material *material,
+                                         int correction, int partial_volume, int deformation) {
+    if (correction == KR_SURFACE_ENERGY)
+        return kr_surface_correct(nodes, material, partial_volume, deformation);
+    if (correction == KR_SURFACE_VOLUME)
+        return kr_surface_volume(nodes, material, partial_volume);
+    if (correction == KR_SURFACE_FORCE_DENSITY)
+        return kr_surface_force_density(nodes, material, partial_volume);
+    kr_surface_clear(nodes);
+    return (struct kr_surface_report){.least = 1, .most = 1};
 }

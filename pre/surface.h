@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Surface correction by the energy method.
+ * Surface correction: nodes near a surface have lost part of their family and are too soft.
  */
 #ifndef KR_SURFACE_H
 #define KR_SURFACE_H
@@ -9,12 +9,24 @@
 #include "nodes.h"
 
 struct kr_surface_report {
-    int iterations;
-    double reference;      /* W0, J/m^3 */
+    int iterations;        /* 0 where the method does not iterate */
+    double reference;      /* of a full family: W0 [J/m^3], V0 [m^2] or S0 [N/m^4] */
     double least, most;    /* of the factors */
     size_t least_at, most_at; /* their nodes */
     double residual;       /* largest |W_i/W0 - 1| after the last iteration */
 };
+
+/** Correct by any method; theory.md (11), (11a), (11b).
+ *
+ *  in   correction, partial_volume, deformation  enums of case.h; the deformation is for the energy
+ *  out  nodes->factor, pairing, axis_factor
+ *  Stops (exit 4) where a method has no factors for some node.
+ */
+struct kr_surface_report kr_surface_make(struct kr_nodes *nodes, const struct kr_material *material,
+                                         int correction, int partial_volume, int deformation);
+
+/** Take all factors away: 1 for each node. */
+void kr_surface_clear(struct kr_nodes *nodes);
 
 /** Factors lambda for which every node holds the energy of a full family under a uniform strain of
  *  1e-4; steps a to e of section 2 of the plates paper, theory.md (11):
@@ -26,7 +38,8 @@ struct kr_surface_report {
  *  in   partial_volume  enum kr_partial_volume
  *  in   deformation     enum kr_deformation
  *  out  nodes->factor
- *  Stops (exit 4) if it does not converge in 1000 iterations, or if a bond's mean factor is not positive.
+ *  Found by conjugate gradients where the weights are symmetric, by the iteration itself where not.
+ *  Stops (exit 4) if it does not converge in 5000 iterations, or if a bond's mean factor is not positive.
  */
 struct kr_surface_report kr_surface_correct(struct kr_nodes *nodes,
                                             const struct kr_material *material, int partial_volume,
@@ -36,5 +49,24 @@ struct kr_surface_report kr_surface_correct(struct kr_nodes *nodes,
  *  deformation. */
 double kr_surface_reference(const struct kr_material *material, int partial_volume,
                             int deformation);
+
+/** Factors V0/V_i, to be averaged as 2 V0/(V_i + V_j); theory.md (11a). */
+struct kr_surface_report kr_surface_volume(struct kr_nodes *nodes,
+                                           const struct kr_material *material, int partial_volume);
+
+/** Factors S0/S_i along each axis, to be taken along the bond by an ellipse; theory.md (11b). */
+struct kr_surface_report kr_surface_force_density(struct kr_nodes *nodes,
+                                                  const struct kr_material *material,
+                                                  int partial_volume);
+
+/** V0: area of the horizon's circle [m^2], volume of its sphere [m^3]. */
+double kr_surface_full_volume(int dim, double horizon);
+
+/** S0 [N/m^4]: what a full family at a spacing of horizon/25 pulls along an axis, both halves,
+ *  strained along it. */
+double kr_surface_full_pull(const struct kr_material *material, int partial_volume);
+
+/** Fill in the least and largest factor. */
+void kr_surface_extremes(const struct kr_nodes *nodes, struct kr_surface_report *report);
 
 #endif

@@ -65,44 +65,56 @@ static void force_of_block(struct kr_body *body, const struct kr_kernel_work *wo
     }
 }
 
+/* By the lower, then the higher node; of the two ends of a pair that of the lower node first. */
 static int by_pair(const void *p, const void *q) {
     const struct kr_broken *a = p, *b = q;
-    return a->i != b->i ? (a->i < b->i ? -1 : 1) : (a->j > b->j) - (a->j < b->j);
+    int a_low = a->i < a->j ? a->i : a->j, b_low = b->i < b->j ? b->i : b->j;
+    int a_high = a->i + a->j - a_low, b_high = b->i + b->j - b_low;
+    if (a_low != b_low)
+        return a_low < b_low ? -1 : 1;
+    return a_high != b_high ? (a_high < b_high ? -1 : 1) : (a->i > b->i) - (a->i < b->i);
 }
 
-/* Bring the ends found by all blocks together: each pair once, in order. Rounding may let one end
- * see the break a step before the other, so both are cleared here. */
+/* Bring the ends found by all blocks into one list, in order. Each counts in the damage of its own
+ * node, with the weight seen from there (hhb-one-sided has two). */
 static void gather_broken(struct kr_body *body) {
     struct kr_broken_list *all = &body->broken;
+    struct kr_bonds *b = body->bonds;
     all->count = 0;
-    for (int k = 0; k < body->bonds->n_blocks; k++)
+    for (int k = 0; k < b->n_blocks; k++)
         for (size_t m = 0; m < body->by_block[k].count; m++) {
-            struct kr_broken one = body->by_block[k].item[m];
-            if (one.i > one.j)
-                one = (struct kr_broken){one.j, one.i, one.weight, one.energy};
+            const struct kr_broken *one = &body->by_block[k].item[m];
+            b->lost_volume[one->i] += one->weight * b->volume[one->j];
             KR_GROW(all->item, all->count, all->room);
-            all->item[all->count++] = one;
+            all->item[all->count++] = *one;
         }
-    if (!all->count)
-        return;
-    qsort(all->item, all->count, sizeof *all->item, by_pair);
-    size_t kept = 0;
-    for (size_t k = 0; k < all->count; k++)
-        if (!kept || by_pair(&all->item[k], &all->item[kept - 1]))
-            all->item[kept++] = all->item[k];
-    all->count = kept;
+    if (all->count)
+        qsort(all->item, all->count, sizeof *all->item, by_pair);
 }
 
+/* Break the other end of a bond, too, where rounding let only one end see it, or where only one end
+ * is bonded at all (hhb-one-sided). */
+static void break_other_end(struct kr_bonds *b, struct kr_broken *one) {
+    double weight = kr_bonds_clear(b, (size_t)one->j, (size_t)one->i);
+    b->lost_volume[one->j] += weight * b->volume[one->i];
+    one->energy += one->energy * weight / one->weight;
+}
+
+/* Make one entry a pair of what was found at both ends. */
 static void settle_broken(struct kr_body *body) {
-    struct kr_bonds *b = body->bonds;
-    for (size_t k = 0; k < body->broken.count; k++) {
-        size_t i = (size_t)body->broken.item[k].i, j = (size_t)body->broken.item[k].j;
-        double weight = body->broken.item[k].weight;
-        kr_bonds_clear(b, i, j);
-        kr_bonds_clear(b, j, i);
-        b->lost_volume[i] += weight * b->volume[j];
-        b->lost_volume[j] += weight * b->volume[i];
+    struct kr_broken *item = body->broken.item;
+    size_t kept = 0, count = body->broken.count;
+    for (size_t k = 0; k < count; k++) {
+        struct kr_broken one = item[k];
+        if (k + 1 < count && item[k + 1].i == one.j && item[k + 1].j == one.i)
+            one.energy += item[++k].energy;
+        else
+            break_other_end(body->bonds, &one);
+        if (one.i > one.j)
+            one = (struct kr_broken){one.j, one.i, one.weight, one.energy};
+        item[kept++] = one;
     }
+    body->broken.count = kept;
 }
 
 void kr_body_force(struct kr_body *body, int may_break) {

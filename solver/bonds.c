@@ -31,7 +31,7 @@ struct builder {
     const struct kr_nodes *nodes;
     struct kr_bonds *bonds;
     struct kr_search *search;
-    int partial_volume;
+    struct kr_weights *weights;
     double size_of_lattice, origin[3], cell_volume;
     int reach_in_cells;
     unsigned char *on_lattice; /* (n) */
@@ -113,6 +113,7 @@ static void find_lattice(struct builder *w) {
                            nodes->spacing;
             fits &= fabs(cells - round(cells)) < same * (1 + fabs(cells));
         }
+        fits = fits && kr_weights_is_square(w->weights, i, nodes->spacing);
         w->on_lattice[i] = (unsigned char)fits;
     }
 }
@@ -152,8 +153,8 @@ static void make_kinds(struct builder *w) {
         kind->length = sqrt(square);
         kind->inverse_square = 1 / square;
         /* Rounded to float32 as the general rows store it: both ends of a bond must agree. */
-        kind->weight = (float)kr_weight(w->partial_volume, kind->length, m->horizon,
-                                        w->size_of_lattice, w->size_of_lattice);
+        kind->weight = (float)kr_weight_lattice(w->weights->partial_volume, b->dim, kind->xi,
+                                                m->horizon, w->size_of_lattice);
         kind->pull = 0.5 * m->micromodulus * kind->weight * w->cell_volume / kind->length;
         kind->store = 0.25 * m->micromodulus * kind->weight * w->cell_volume * kind->length;
     }
@@ -161,19 +162,18 @@ static void make_kinds(struct builder *w) {
 
 /* ---- slices ---- */
 
-static double size_of(const struct kr_nodes *nodes, size_t i) {
-    return nodes->dim == 2 ? sqrt(nodes->volume[i]) : cbrt(nodes->volume[i]);
-}
-
-/* Weight and length of the bond i-j; the same bits for j-i. */
+/* Weight and length of the bond i-j; the same bits for j-i, unless the weights are one-sided. Two
+ * nodes of the lattice have their kind's weight wherever they are: rounding decides nothing. */
 static double weigh(const struct builder *w, size_t i, size_t j, double *length) {
     const struct kr_bonds *b = w->bonds;
     double square = 0;
     for (int d = 0; d < b->dim; d++)
         square += (b->x[d][j] - b->x[d][i]) * (b->x[d][j] - b->x[d][i]);
     *length = sqrt(square);
-    return kr_weight(w->partial_volume, *length, b->material.horizon, size_of(w->nodes, i),
-                     size_of(w->nodes, j));
+    double phi = w->on_lattice[i] && w->on_lattice[j]
+                     ? b->kinds[kind_of(w, i, j)].weight
+                     : kr_weights_phi(w->weights, i, j, *length);
+    return phi > 0 && w->nodes->pairing ? phi * kr_weights_pairing(w->weights, i, j) : phi;
 }
 
 /* Merge the bond of lane `lane` with this offset and kind into the sorted rows, from place `at` on;
@@ -194,14 +194,17 @@ static size_t merge_bond(struct row *rows, size_t *n_rows, size_t at, int offset
     return at;
 }
 
-/* Whether all nodes of a slice and all that they see are lattice nodes. */
+/* Whether all nodes of a slice and all that they see are lattice nodes, and no bond among them has
+ * a surface factor other than the mean of its ends'. */
 static int is_lattice(const struct builder *w, size_t begin, size_t end, int near[][MOST_NEAR],
                       const size_t *n_near) {
     for (size_t i = begin; i < end; i++) {
         if (!w->on_lattice[i])
             return 0;
         for (size_t k = 0; k < n_near[i - begin]; k++)
-            if (!w->on_lattice[near[i - begin][k]])
+            if (!w->on_lattice[near[i - begin][k]] ||
+                (w->nodes->pairing &&
+                 kr_weights_pairing(w->weights, i, (size_t)near[i - begin][k]) != 1))
                 return 0;
     }
     return 1;
@@ -246,10 +249,11 @@ static size_t make_slice(const struct builder *w, size_t slice, struct scratch *
     return n_rows;
 }
 
-/* A general row stores weights if any of its bonds is only partly inside the horizon. */
+/* A general row stores weights if any of its bonds is only partly inside the horizon, or carries
+ * what its surface factor differs from the mean of its ends'. */
 static int is_rim(const struct row *row) {
     for (int lane = 0; lane < KR_LANES; lane++)
-        if (row->mask >> lane & 1 && row->weight[lane] < 1)
+        if (row->mask >> lane & 1 && (float)row->weight[lane] != 1)
             return 1;
     return 0;
 }
@@ -346,11 +350,9 @@ struct kr_bonds *kr_bonds_create(const struct kr_nodes *nodes, const struct kr_m
     b->flag_below = -b->fit.range;
     b->flag_above = isfinite(s0) ? fmin(s0 * (2 + s0) * (1 - 1e-12), b->fit.range) : b->fit.range;
 
-    struct builder w = {.nodes = nodes, .bonds = b, .partial_volume = partial_volume};
-    double largest = 0;
-    for (size_t i = 0; i < nodes->n; i++)
-        largest = fmax(largest, size_of(nodes, i));
-    double reach = kr_weight_reach(partial_volume, material->horizon, largest);
+    struct builder w = {.nodes = nodes, .bonds = b};
+    w.weights = kr_weights_create(nodes, material->horizon, partial_volume);
+    double reach = w.weights->reach;
     w.search = kr_search_create(nodes->dim, nodes->n, nodes->position, reach);
     find_lattice(&w);
     w.reach_in_cells = (int)ceil(reach / w.size_of_lattice);
@@ -369,6 +371,7 @@ struct kr_bonds *kr_bonds_create(const struct kr_nodes *nodes, const struct kr_m
     for_all_slices(&w, fill_slice);
 
     kr_search_free(w.search);
+    kr_weights_free(w.weights);
     kr_free(w.on_lattice);
     count_living(b);
     make_blocks(b);
@@ -419,15 +422,20 @@ int kr_bonds_next(const struct kr_bonds *b, struct kr_bond_walk *walk, struct kr
     return 0;
 }
 
-int kr_bonds_clear(struct kr_bonds *b, size_t i, size_t j) {
-    size_t slice = i / KR_LANES;
+double kr_bonds_clear(struct kr_bonds *b, size_t i, size_t j) {
+    size_t slice = i / KR_LANES, weight = b->first_weight[slice];
     uint8_t bit = (uint8_t)(1u << (i % KR_LANES));
     int32_t offset = (int32_t)((long)j - (long)i);
-    for (size_t r = b->first[slice]; r < b->first[slice + 1]; r++)
+    for (size_t r = b->first[slice]; r < b->first[slice + 1]; r++) {
+        int stored = !b->lattice[slice] && b->kind[r];
         if (b->offset[r] == offset && b->living[r] & bit) {
             b->living[r] &= (uint8_t)~bit;
-            return 1;
+            return b->lattice[slice] ? b->kinds[b->kind[r]].weight
+                   : stored          ? b->weight[KR_LANES * weight + i % KR_LANES]
+                                     : 1;
         }
+        weight += (size_t)stored;
+    }
     return 0;
 }
 

@@ -82,7 +82,7 @@ struct kr_bond {
     size_t i, j;
     double xi[3];  /* m */
     double length; /* m */
-    double weight; /* phi */
+    double weight; /* phi, times what the surface factor differs from (lambda_i + lambda_j)/2 */
 };
 
 /** Find all families.
@@ -109,8 +109,8 @@ size_t kr_bonds_cut(struct kr_bonds *bonds, const double a[2], const double b[2]
 /** Damage of a node, 0 to 1: 1 - sum of mu phi V over sum of phi V; theory.md (9), paper eq. 10. */
 double kr_bonds_damage(const struct kr_bonds *bonds, size_t i);
 
-/** Clear one bond at the end of node i if it lives; returns whether it did. */
-int kr_bonds_clear(struct kr_bonds *bonds, size_t i, size_t j);
+/** Clear one bond at the end of node i if it lives; returns its weight phi, 0 if it did not live. */
+double kr_bonds_clear(struct kr_bonds *bonds, size_t i, size_t j);
 
 /** Visit the living bonds of a slice, row by row: start with kr_bonds_walk, then until it returns 0.
  *  `bond` is filled anew each time. */

@@ -82,11 +82,16 @@ static const struct kr_deck_key nodes_keys[] = {
      .text = "Reach of the bonds; 3 to 6 spacings, at least 2."},
     {"partial_volume", KR_DECK_CHOICE, AT(partial_volume), .words = KR_PARTIAL_VOLUME_WORDS, .fallback = "hhb",
      .text = "Share of a cell that counts where the horizon cuts it: `hhb`, linear over the "
-             "half width of the cell, the mean of both ends of a bond; `none`: all or nothing."},
+             "half width of the cell, the mean of both ends of a bond; `none`: all or nothing; "
+             "`exact`: the area of the cell inside the circle, the mean of both ends; "
+             "`exact-centroid`: the same, the bond reaching to the centroid of that part; "
+             "`hhb-one-sided`: of the far cell alone, as published; on unequal cells momentum then "
+             "drifts, so it is for comparison only."},
     {"surface_correction", KR_DECK_CHOICE, AT(surface_correction), .words = KR_SURFACE_WORDS,
      .fallback = "energy",
      .text = "`energy`: bonds near a surface are stiffened until the energy of a homogeneous "
-             "deformation is right there too; `none`."},
+             "deformation is right there too; `volume`: by the part of the family that is lost; "
+             "`force-density`: by what a uniaxial strain along each axis pulls; `none`."},
     {"surface_deformation", KR_DECK_CHOICE, AT(surface_deformation),
      .words = KR_DEFORMATION_WORDS, .fallback = "mean-over-axes",
      .text = "The homogeneous deformation of the energy correction. `mean-over-axes`: the mean of "

@@ -10,13 +10,24 @@
 
 /* Choices of the deck and their words, in one order. */
 #define KR_GRID_WORDS "near-boundary uniform"
-#define KR_PARTIAL_VOLUME_WORDS "hhb none"
-#define KR_SURFACE_WORDS "energy none"
+#define KR_PARTIAL_VOLUME_WORDS "hhb none hhb-one-sided exact exact-centroid"
+#define KR_SURFACE_WORDS "energy none volume force-density"
 #define KR_DEFORMATION_WORDS "uniaxial-y uniaxial-x isotropic mean-over-axes"
 #define KR_MODEL_WORDS "plane-stress plane-strain"
 enum kr_grid { KR_GRID_NEAR_BOUNDARY, KR_GRID_UNIFORM };
-enum kr_partial_volume { KR_PARTIAL_VOLUME_HHB, KR_PARTIAL_VOLUME_NONE };
-enum kr_surface_correction { KR_SURFACE_ENERGY, KR_SURFACE_NONE };
+enum kr_partial_volume {
+    KR_PARTIAL_VOLUME_HHB,
+    KR_PARTIAL_VOLUME_NONE,
+    KR_PARTIAL_VOLUME_HHB_ONE_SIDED,
+    KR_PARTIAL_VOLUME_EXACT,
+    KR_PARTIAL_VOLUME_EXACT_CENTROID,
+};
+enum kr_surface_correction {
+    KR_SURFACE_ENERGY,
+    KR_SURFACE_NONE,
+    KR_SURFACE_VOLUME,
+    KR_SURFACE_FORCE_DENSITY,
+};
 enum kr_deformation { KR_UNIAXIAL_Y, KR_UNIAXIAL_X, KR_ISOTROPIC, KR_MEAN_OVER_AXES };
 enum kr_model { KR_PLANE_STRESS, KR_PLANE_STRAIN };
 

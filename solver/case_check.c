@@ -240,6 +240,10 @@ void kr_case_warn(struct kr_deck *deck, const struct kr_case *c) {
     if (c->horizon < 3 * c->spacing * (1 - rounding))
         kr_warn("%s: %.3g spacings; below 3 the directions of the lattice show in the cracks",
                 kr_deck_where(deck, &c->horizon), c->horizon / c->spacing);
+    if (c->partial_volume == KR_PARTIAL_VOLUME_HHB_ONE_SIDED)
+        kr_warn("%s: the two ends of a bond weigh it differently where cells are unequal: momentum "
+                "drifts and energy is not kept; hhb does without",
+                kr_deck_where(deck, &c->partial_volume));
     for (size_t i = 0; i < c->sets.count; i++)
         if (!is_used(c, sets[i].name))
             kr_warn("%s: no load and no no_fail uses this set", kr_deck_where(deck, &sets[i].name));

@@ -85,6 +85,6 @@ void kr_exact_break(struct kr_bonds *b, const struct kr_kernel_work *work, size_
             work->force[d][bond.i] -= 0.5 * force[d];
         KR_GROW(list->item, list->count, list->room);
         list->item[list->count++] = (struct kr_broken){
-            (int)bond.i, (int)bond.j, bond.weight, kr_exact_pair_energy(b, &bond, s)};
+            (int)bond.i, (int)bond.j, bond.weight, 0.5 * kr_exact_pair_energy(b, &bond, s)};
     }
 }

@@ -12,8 +12,8 @@
 /** A bond that broke. */
 struct kr_broken {
     int i, j;      /* i < j once both ends were brought together */
-    double weight; /* phi */
-    double energy; /* J/m: what the pair held when it broke */
+    double weight; /* phi as seen from i */
+    double energy; /* J/m: what the pair held when it broke; of one end: half of it */
 };
 
 /** A growing list of them. */

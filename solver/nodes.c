@@ -36,6 +36,8 @@ void kr_nodes_free(struct kr_nodes *nodes) {
     kr_free(nodes->position);
     kr_free(nodes->volume);
     kr_free(nodes->factor);
+    kr_free(nodes->axis_factor);
+    kr_free(nodes->partition);
     kr_free(nodes->tag);
     kr_free(nodes->point);
     kr_free(nodes->first);
@@ -94,6 +96,7 @@ static void reorder_sets(struct kr_nodes *nodes, const size_t *order) {
 }
 
 void kr_nodes_reorder(struct kr_nodes *nodes, const size_t *order) {
+    kr_assert(!nodes->axis_factor && !nodes->partition); /* made once the order stands */
     size_t dim = (size_t)nodes->dim;
     double *position = KR_NEW(double, nodes->n *dim), *volume = KR_NEW(double, nodes->n);
     double *factor = KR_NEW(double, nodes->n);
@@ -128,6 +131,10 @@ static char *fault_of_numbers(const struct kr_nodes *nodes) {
         if (!(nodes->volume[i] > 0) || !isfinite(nodes->volume[i]))
             return kr_text("node %zu (tag %lld) has the volume %g; expected a positive number", i,
                            (long long)nodes->tag[i], nodes->volume[i]);
+        for (size_t d = 0; d < dim && nodes->axis_factor; d++)
+            if (!(nodes->axis_factor[i * dim + d] > 0) || !isfinite(nodes->axis_factor[i * dim + d]))
+                return kr_text("node %zu (tag %lld) has the axis factor %g; expected a positive one",
+                               i, (long long)nodes->tag[i], nodes->axis_factor[i * dim + d]);
         if (!isfinite(nodes->factor[i]))
             return kr_text("node %zu (tag %lld) has the surface factor %g; expected a finite one",
                            i, (long long)nodes->tag[i], nodes->factor[i]);

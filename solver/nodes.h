@@ -27,6 +27,10 @@ struct kr_nodes_made_for {
     char deformation[32];        /* "uniaxial-y" */
 };
 
+/** How the factor of a bond is made of its two nodes': their mean, their harmonic mean, or an ellipse
+ *  over the means of the factors along the axes; theory.md (11). Goes with surface_correction. */
+enum kr_pairing { KR_PAIRING_MEAN, KR_PAIRING_HARMONIC, KR_PAIRING_ELLIPSE };
+
 struct kr_nodes {
     int dim;
     size_t n;
@@ -34,6 +38,9 @@ struct kr_nodes {
     double *position;    /* (n x dim) m */
     double *volume;      /* (n) m^2; 3D: m^3 */
     double *factor;      /* (n) surface factor lambda, 1 where there is no correction */
+    int pairing;         /* enum kr_pairing */
+    double *axis_factor; /* (n x dim) factors along the axes; NULL without KR_PAIRING_ELLIPSE */
+    int64_t *partition;  /* (n) part of the bond graph, from 0; NULL if there is none */
     int64_t *tag;        /* (n) number of the cell in the mesh */
     size_t n_points;     /* the cells' corners; 0 if the nodes came without cells */
     double *point;       /* (n_points x dim) m */

@@ -44,6 +44,10 @@ void kr_nodes_write(const struct kr_nodes *nodes, const char *path, const char *
     kr_h5_write_double(file, "/nodes/volume", nodes->n, 0, nodes->volume);
     kr_h5_write_double(file, "/nodes/surface_factor", nodes->n, 0, nodes->factor);
     kr_h5_write_int64(file, "/nodes/tag", nodes->n, 0, nodes->tag);
+    if (nodes->axis_factor)
+        kr_h5_write_double(file, "/nodes/axis_factor", nodes->n, dim, nodes->axis_factor);
+    if (nodes->partition)
+        kr_h5_write_int64(file, "/nodes/partition", nodes->n, 0, nodes->partition);
     if (nodes->n_points) {
         kr_h5_write_double(file, "/cells/point", nodes->n_points, dim, nodes->point);
         kr_h5_write_int64(file, "/cells/first", nodes->n + 1, 0, nodes->first);
@@ -97,6 +101,19 @@ static void read_arrays(struct kr_nodes *nodes, struct kr_h5 *file) {
     nodes->volume = kr_h5_read_double(file, "/nodes/volume", nodes->n, 0);
     nodes->factor = kr_h5_read_double(file, "/nodes/surface_factor", nodes->n, 0);
     nodes->tag = kr_h5_read_int64(file, "/nodes/tag", nodes->n, 0);
+    if (kr_h5_has(file, "/nodes/partition"))
+        nodes->partition = kr_h5_read_int64(file, "/nodes/partition", nodes->n, 0);
+}
+
+/* How a bond's factor is made of its nodes' follows from the correction. */
+static void read_pairing(struct kr_nodes *nodes, struct kr_h5 *file) {
+    if (!strcmp(nodes->made_for.surface_correction, "volume"))
+        nodes->pairing = KR_PAIRING_HARMONIC;
+    if (strcmp(nodes->made_for.surface_correction, "force-density"))
+        return;
+    nodes->pairing = KR_PAIRING_ELLIPSE;
+    nodes->axis_factor = kr_h5_read_double(file, "/nodes/axis_factor", nodes->n,
+                                           (size_t)nodes->dim);
 }
 
 struct kr_nodes *kr_nodes_read(const char *path) {
@@ -116,6 +133,7 @@ struct kr_nodes *kr_nodes_read(const char *path) {
     read_word(file, "partial_volume", nodes->made_for.partial_volume);
     read_word(file, "surface_correction", nodes->made_for.surface_correction);
     read_word(file, "deformation", nodes->made_for.deformation);
+    read_pairing(nodes, file);
     read_cells(nodes, file, path);
     read_sets(nodes, file);
     kr_h5_close(file);

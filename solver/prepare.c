@@ -37,7 +37,8 @@ static void check_made_for(struct kr_deck *deck, const struct kr_case *c,
     if (c->surface_correction == KR_SURFACE_NONE)
         return;
     check_word(deck, &c->model, KR_MODEL_WORDS, made->model);
-    check_word(deck, &c->surface_deformation, KR_DEFORMATION_WORDS, made->deformation);
+    if (c->surface_correction == KR_SURFACE_ENERGY)
+        check_word(deck, &c->surface_deformation, KR_DEFORMATION_WORDS, made->deformation);
 }
 
 static void mark_no_fail(const struct kr_case *c, const struct kr_nodes *nodes,

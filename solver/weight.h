@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Partial volumes: which share of a node's volume lies inside the horizon of another.
+ * Weights of bonds: which share of a node's volume lies inside the horizon of another, and how the
+ * surface factors of both ends make the bond's; theory.md (10), (11).
  */
 #ifndef KR_WEIGHT_H
 #define KR_WEIGHT_H
 
 #include "case.h"
+#include "nodes.h"
 
 #include <math.h>
 
@@ -16,8 +18,9 @@ static inline double kr_weight_hhb_one_sided(double distance, double horizon, do
     return phi < 0 ? 0 : phi > 1 ? 1 : phi;
 }
 
-/** The bond's weight phi_ij = phi_ji, theory.md (10): the mean of both ends' shares (hhb), or 1 up to
- *  the horizon (none). 0: there is no bond. The same bits from both ends.
+/** The weight phi_ij that node i gives node j where it hangs on their sizes alone (none, hhb,
+ *  hhb-one-sided), theory.md (10). 0: there is no bond. Of these only hhb-one-sided differs from the
+ *  weight seen from j; the others have the same bits from both ends.
  *
  *  in  partial_volume  enum kr_partial_volume
  *  in  distance, horizon, size_i, size_j  [m]
@@ -28,16 +31,51 @@ static inline double kr_weight(int partial_volume, double distance, double horiz
     const double tie = 1 + 1e-9;
     if (partial_volume == KR_PARTIAL_VOLUME_NONE)
         return distance <= horizon * tie ? 1 : 0;
-    double phi = 0.5 * (kr_weight_hhb_one_sided(distance, horizon, size_i) +
-                        kr_weight_hhb_one_sided(distance, horizon, size_j));
+    double phi = kr_weight_hhb_one_sided(distance, horizon, size_j);
+    if (partial_volume != KR_PARTIAL_VOLUME_HHB_ONE_SIDED)
+        phi = 0.5 * (kr_weight_hhb_one_sided(distance, horizon, size_i) + phi);
     return phi > 1e-9 ? phi : 0;
 }
 
-/** Farthest distance at which two nodes of these sizes can be bonded [m]. */
+/** Farthest distance at which two nodes of these sizes can be bonded [m]; not for exact weights. */
 static inline double kr_weight_reach(int partial_volume, double horizon, double largest_size) {
     if (partial_volume == KR_PARTIAL_VOLUME_NONE)
         return horizon * (1 + 1e-9);
     return horizon + 0.5 * largest_size;
 }
+
+/** All that the weights of a set of nodes need. */
+struct kr_weights {
+    const struct kr_nodes *nodes; /* not owned */
+    int partial_volume;
+    double horizon;
+    double reach;   /* m: no bond is longer */
+    double *size;   /* (n) m: V^(1/dim) */
+    double *radius; /* (n) m: of the circle about the node that holds its cell; exact weights only */
+};
+
+/** Get ready to weigh. Stops (exit 2) where exact weights are asked of nodes without cells, or in
+ *  3D. The nodes must outlive the weights. */
+struct kr_weights *kr_weights_create(const struct kr_nodes *nodes, double horizon,
+                                     int partial_volume);
+void kr_weights_free(struct kr_weights *weights);
+
+/** phi_ij of two nodes at a distance [m], any partial volume; theory.md (10). */
+double kr_weights_phi(const struct kr_weights *weights, size_t i, size_t j, double distance);
+
+/** The share of cell j inside the horizon of node i, from its polygon; theory.md (10a). */
+double kr_weights_share(const struct kr_weights *weights, size_t i, size_t j);
+
+/** phi of two cells of a square (cubic) lattice, xi [m] apart. */
+double kr_weight_lattice(int partial_volume, int dim, const double *xi, double horizon,
+                         double spacing);
+
+/** Whether node i has the square cell of the lattice about it, so that kr_weight_lattice is right. */
+int kr_weights_is_square(const struct kr_weights *weights, size_t i, double spacing);
+
+/** lambda_ij over (lambda_i + lambda_j)/2: 1 for factors of the energy method; theory.md (11). The
+ *  loop over bonds takes the mean of the two factors, so what differs from it goes into the weight.
+ *  Exactly 1 where it is 1 but for rounding. */
+double kr_weights_pairing(const struct kr_weights *weights, size_t i, size_t j);
 
 #endif

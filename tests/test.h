@@ -52,12 +52,14 @@ static inline void kr_check_stops(void (*body)(void *), void *argument, int code
         dup2(pipe_ends[1], 2);
         dup2(pipe_ends[1], 1);
         close(pipe_ends[0]);
-        omp_set_num_threads(1); /* a fork leaves the pool's threads behind: waiting for them hangs */
+        omp_set_num_threads(
+            1); /* a fork leaves the pool's threads behind: waiting for them hangs */
         body(argument);
         _exit(0);
     }
     close(pipe_ends[1]);
-    while (got < sizeof said - 1 && (more = read(pipe_ends[0], said + got, sizeof said - 1 - got)) > 0)
+    while (got < sizeof said - 1 &&
+           (more = read(pipe_ends[0], said + got, sizeof said - 1 - got)) > 0)
         got += (size_t)more;
     said[got] = 0;
     close(pipe_ends[0]);
@@ -75,7 +77,10 @@ static inline void kr_check_stops(void (*body)(void *), void *argument, int code
         const char *only = getenv("ONLY");                                                         \
         snprintf(filter, sizeof filter, "*%s*", only ? only : "");                                 \
         cmocka_set_test_filter(filter);                                                            \
-        return cmocka_run_group_tests(tests, NULL, NULL);                                          \
+        int failed = cmocka_run_group_tests(tests, NULL, NULL);                                    \
+        if (!failed && kr_memory_outstanding())                                                    \
+            print_error("%zu arrays are left\n", kr_memory_outstanding());                         \
+        return failed ? failed : kr_memory_outstanding() > 0;                                      \
     } while (0)
 
 #endif

@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Children by fork and execv. The time limit is alarm(), which survives execv: the kernel keeps
+ * Children by fork and execve. The time limit is alarm(), which survives execve: the kernel keeps
  * it, even if the child hangs in a loop of its own.
+ *
+ * gmsh orders some of its work by the addresses of its objects. So that a region is filled the same
+ * way every time, a child starts with an empty environment (no MALLOC_... or LD_PRELOAD) and
+ * without random addresses.
  */
 #include "base/child.h"
 
@@ -15,6 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/personality.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -42,8 +47,8 @@ void kr_child_prepare(struct kr_child *child) {
 }
 
 /** In the child: only calls that are safe between fork and exec. */
-_Noreturn static void become(char *const *word, const int file[3], unsigned seconds,
-                             pid_t parent) {
+_Noreturn static void become(char *const *word, char *const *environment, const int file[3],
+                             unsigned seconds, pid_t parent) {
     sigset_t none;
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, NULL);
@@ -55,7 +60,8 @@ _Noreturn static void become(char *const *word, const int file[3], unsigned seco
     for (int k = 0; k < 3; k++)
         if (dup2(file[k], k) < 0)
             _exit(NOT_STARTED);
-    execv(word[0], word);
+    personality(ADDR_NO_RANDOMIZE); /* where this is forbidden, nothing is lost but certainty */
+    execve(word[0], word, environment);
     _exit(NOT_STARTED);
 }
 
@@ -67,6 +73,9 @@ void kr_child_start(struct kr_child *child, const char *program, unsigned second
 void kr_child_start_words(struct kr_child *child, char *const *word, unsigned seconds) {
     int file[3] = {fileno(child->in), fileno(child->out), fileno(child->said)};
     pid_t parent = getpid();
+    const char *libraries = getenv("LD_LIBRARY_PATH");
+    char *kept = libraries ? kr_text("LD_LIBRARY_PATH=%s", libraries) : NULL;
+    char *environment[] = {kept, NULL};
     fflush(NULL);
     rewind(child->in);
     /* dup2 onto itself would keep the close-on-exec mark; files in memory stand above 0, 1, 2
@@ -79,7 +88,8 @@ void kr_child_start_words(struct kr_child *child, char *const *word, unsigned se
     if (child->pid < 0)
         kr_stop(KR_EXIT_LIBRARY, "%s cannot be started: %s", word[0], strerror(errno));
     if (child->pid == 0)
-        become(word, file, seconds, parent);
+        become(word, environment, file, seconds, parent);
+    kr_free(kept);
 }
 
 pid_t kr_child_wait(int *status) {

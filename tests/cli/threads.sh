@@ -20,8 +20,9 @@ same_files() { # run, run
     for file in plate.msh plate.nodes.h5 history.csv run.h5; do
         cmp "$work/$1/$file" "$work/$2/$file" || return
     done
+    diff -r "$work/$1/run" "$work/$2/run" || return
     broken=$(tail -n 1 "$work/$1/history.csv" | cut -d, -f8)
-    echo "# figure $broken bonds broke; plate.msh, plate.nodes.h5, history.csv, run.h5 equal byte by byte"
+    echo "# figure $broken bonds broke; plate.msh, plate.nodes.h5, history.csv, run.h5 and run/ equal byte by byte"
     [ "$broken" -gt 500 ]
 }
 

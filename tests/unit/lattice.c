@@ -104,6 +104,22 @@ static void a_box_is_snapped_outward(void **unused) {
     assert_int_equal(kr_memory_outstanding(), 0);
 }
 
+/** Boxes that end on lattice lines in decimals; in binary some end a rounding above or below, and
+ *  none may grow by a cell for it. */
+static void decimals_are_not_snapped_to_the_next_line(void **unused) {
+    (void)unused;
+    static const double step[][2] = {{1, 10}, {1, 1e4}, {4, 1e5}, {3, 1e5}, {7, 1e3}};
+    for (size_t k = 0; k < sizeof step / sizeof *step; k++)
+        for (int i = 5; i < 36; i++) {
+            double one = step[k][0], of = step[k][1];
+            struct kr_lattice lattice = {40, 40, one / of};
+            struct kr_case_hole hole = {{i * one / of, (41 - i) * one / of}, 2 * one / of};
+            struct kr_regions *regions = regions_of(&lattice, 1, &hole, 2 * one / of);
+            assert_int_equal(regions->region[0].n_cells, 64);
+            kr_regions_free(regions);
+        }
+}
+
 static void a_box_ends_at_the_plate(void **unused) {
     (void)unused;
     struct kr_lattice lattice = {20, 16, 0.1};
@@ -144,6 +160,17 @@ static void corner_contacts_are_repaired(void **unused) {
         assert_int_equal(regions->region[0].n_cells, 2 * 100 + 1);
         kr_regions_free(regions);
     }
+}
+
+/** The cell that joins two boxes touches a third one's corner, in a row that was passed before. */
+static void a_repair_that_makes_a_contact_is_repaired(void **unused) {
+    (void)unused;
+    struct kr_lattice lattice = {40, 40, 0.1};
+    struct kr_case_hole hole[] = {{{1.5, 1.5}, 0.3}, {{2.5, 2.5}, 0.3}, {{2.6, 1.4}, 0.3}};
+    struct kr_regions *regions = regions_of(&lattice, 3, hole, 0.2);
+    assert_int_equal(regions->count, 1);
+    assert_int_equal(regions->region[0].n_cells, 3 * 100 + 2);
+    kr_regions_free(regions);
 }
 
 static void a_ring_of_boxes_has_an_inner_perimeter(void **unused) {
@@ -196,9 +223,11 @@ int main(void) {
         cmocka_unit_test(decimals_fit),
         cmocka_unit_test(a_misfit_stops_and_names_the_nearest),
         cmocka_unit_test(a_box_is_snapped_outward),
+        cmocka_unit_test(decimals_are_not_snapped_to_the_next_line),
         cmocka_unit_test(a_box_ends_at_the_plate),
         cmocka_unit_test(boxes_that_overlap_or_touch_are_one),
         cmocka_unit_test(corner_contacts_are_repaired),
+        cmocka_unit_test(a_repair_that_makes_a_contact_is_repaired),
         cmocka_unit_test(a_ring_of_boxes_has_an_inner_perimeter),
         cmocka_unit_test(many_random_boxes_have_sound_perimeters),
     };
