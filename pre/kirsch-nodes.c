@@ -8,6 +8,7 @@
 #include "boundary.h"
 #include "convert.h"
 #include "mesh.h"
+#include "pieces.h"
 #include "nodes_dat.h"
 #include "surface.h"
 
@@ -39,6 +40,7 @@ static struct kr_nodes *read_nodes(const struct kr_case_arguments *arguments, st
         nodes = kr_nodes_dat_read(path);
     } else {
         mesh = kr_mesh_read_msh(path);
+        kr_pieces_join(mesh, path);
         char *fault = kr_mesh_fault(mesh);
         if (fault)
             kr_stop(KR_EXIT_INPUT, "%s: %s", path, fault);

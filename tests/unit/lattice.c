@@ -139,9 +139,9 @@ static void decimals_are_not_snapped_to_the_next_line(void **unused) {
             double one = step[k][0], of = step[k][1];
             struct kr_lattice lattice = {40, 40, one / of};
             struct kr_case_hole hole = {{i * one / of, (41 - i) * one / of}, 2 * one / of};
-            struct kr_regions *regions = regions_of(&lattice, 1, &hole, 2 * one / of);
-            assert_int_equal(regions->region[0].n_cells, 64);
-            kr_regions_free(regions);
+            struct marks m = marks_of(&lattice, 1, &hole, 2 * one / of);
+            assert_int_equal(count_marked(&m), 64);
+            free_marks(&m);
         }
 }
 
@@ -191,10 +191,10 @@ static void a_repair_that_makes_a_contact_is_repaired(void **unused) {
     (void)unused;
     struct kr_lattice lattice = {40, 40, 0.1};
     struct kr_case_hole hole[] = {{{1.5, 1.5}, 0.3}, {{2.5, 2.5}, 0.3}, {{2.6, 1.4}, 0.3}};
-    struct kr_regions *regions = regions_of(&lattice, 3, hole, 0.2);
-    assert_int_equal(regions->count, 1);
-    assert_int_equal(regions->region[0].n_cells, 3 * 100 + 2);
-    kr_regions_free(regions);
+    struct marks m = marks_of(&lattice, 3, hole, 0.2);
+    assert_int_equal(m.regions.count, 1);
+    assert_int_equal(count_marked(&m), 3 * 100 + 2);
+    free_marks(&m);
 }
 
 static void a_ring_of_boxes_has_an_inner_perimeter(void **unused) {
