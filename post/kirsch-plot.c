@@ -4,11 +4,10 @@
  * draws; the script lies beside this program or in the folder of the installation.
  */
 #include <errno.h>
-#include <libgen.h>
-#include <limits.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "base/child.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "case.h"
@@ -22,30 +21,6 @@ static const char usage[] = "kirsch-plot case.yaml [PICTURE]...\n"
                             "energy, speed, tip, history\n"
                             "(PNG) and crack (MP4, by ffmpeg). Without names, all of them.";
 
-/** Path of plot.py, owned by the caller: beside this program (in the build) or in ../share/kirsch
- *  (installed). */
-static char *find_script(void) {
-    char self[PATH_MAX];
-    ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
-    const char *folder;
-    char *beside, *installed;
-    self[length > 0 ? length : 0] = 0;
-    folder = dirname(self);
-    beside = kr_text("%s/plot.py", folder);
-    installed = kr_text("%s/../share/kirsch/plot.py", folder);
-    if (access(beside, R_OK) == 0) {
-        kr_free(installed);
-        return beside;
-    }
-    if (access(installed, R_OK) != 0)
-        kr_stop(KR_EXIT_LIBRARY,
-                "plot.py is missing: it lies neither at %s nor at %s; run make "
-                "or make install again",
-                beside, installed);
-    kr_free(beside);
-    return installed;
-}
-
 /** Replace this program: plot.py FOLDER PICTURE... --hole x,y,radius...   (in m) */
 static void hand_over(const struct kr_case *c, const struct kr_case_arguments *arguments) {
     size_t n_holes, n = 0;
@@ -53,7 +28,7 @@ static void hand_over(const struct kr_case *c, const struct kr_case_arguments *a
     char **word = KR_NEW(char *, 6 + arguments->n_left + 2 * n_holes);
     word[n++] = PYTHON;
     word[n++] = "-B"; /* leaves no compiled files in the installation */
-    word[n++] = find_script();
+    word[n++] = kr_child_script("plot.py");
     word[n++] = (char *)c->folder;
     for (size_t k = 0; k < arguments->n_left; k++)
         word[n++] = (char *)arguments->left[k];

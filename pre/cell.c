@@ -1,9 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
  * Area and centroid of a polygon: a fan of triangles about the first vertex, whose signed areas
- * also serve where the polygon is not convex.
+ * also serve where the polygon is not convex. Volume and centroid of a solid: the signed
+ * tetrahedra between its first vertex and the triangles of its faces.
  */
 #include "cell.h"
+
+#include "element.h"
+
+#include <math.h>
 
 double kr_cell_polygon(size_t n, const double *point, double centroid[2]) {
     const double x0 = point[0], y0 = point[1];
@@ -38,4 +43,84 @@ int kr_cell_is_sound(size_t n, const double *p) {
         return 1;
     return (triangle(p, p + 2, p + 4) > 0 && triangle(p, p + 4, p + 6) > 0) ||
            (triangle(p, p + 2, p + 6) > 0 && triangle(p + 2, p + 4, p + 6) > 0);
+}
+
+/** Weights of corners and of the middles of edges in the middle of a face. */
+static void weights(size_t n, double *corner, double *middle) {
+    *corner = n == 6 ? -1.0 / 9 : n == 8 ? -1.0 / 4 : 1 / (double)n;
+    *middle = n == 6 ? 4.0 / 9 : n == 8 ? 1.0 / 2 : 1 / (double)n;
+}
+
+static void middle_of_face(size_t n, const double *point, double middle[3]) {
+    double weight[2];
+    weights(n, &weight[0], &weight[1]);
+    for (int d = 0; d < 3; d++) {
+        /* About the first vertex: the weights add up to 1, and nothing is lost far from 0. */
+        double sum = 0;
+        for (size_t k = 1; k < n; k++)
+            sum += weight[k % 2] * (point[3 * k + (size_t)d] - point[d]);
+        middle[d] = point[d] + sum;
+    }
+}
+
+static double triple(const double *a, const double *b, const double *c) {
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+           a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+static void add_triangle(const double *a, const double *b, const double *c, double sum[4]) {
+    double six = triple(a, b, c);
+    sum[3] += six;
+    for (int d = 0; d < 3; d++)
+        sum[d] += six * (a[d] + b[d] + c[d]);
+}
+
+/** Add six times the volume and twenty-four times the moment between a face and the origin. */
+static void add_face(size_t n, const double *point, double sum[4]) {
+    double middle[3];
+    if (n == 3) {
+        add_triangle(point, point + 3, point + 6, sum);
+        return;
+    }
+    middle_of_face(n, point, middle);
+    for (size_t k = 0; k < n; k++)
+        add_triangle(middle, point + 3 * k, point + 3 * (k + 1 < n ? k + 1 : 0), sum);
+}
+
+double kr_cell_solid(size_t n, const double *point, double centroid[3]) {
+    const struct kr_solid *solid = kr_solid(n);
+    double local[3 * 20], face[3 * KR_MOST_FACE], sum[4] = {0}, mean[3] = {0};
+    size_t number[20], vertex[KR_MOST_FACE];
+    for (size_t k = 0; k < n; k++) {
+        number[k] = k;
+        for (size_t d = 0; d < 3; d++) {
+            local[3 * k + d] = point[3 * k + d] - point[d];
+            mean[d] += local[3 * k + d] / (double)n;
+        }
+    }
+    /* Vertices at one place count as two here: their triangles are empty. */
+    for (size_t f = 0; f < solid->n_faces; f++) {
+        size_t corners = kr_solid_face(n, number, f, vertex);
+        for (size_t k = 0; k < 3 * corners; k++)
+            face[k] = local[3 * vertex[k / 3] + k % 3];
+        add_face(corners, face, sum);
+    }
+    for (int d = 0; d < 3; d++)
+        centroid[d] = point[d] + (sum[3] == 0 ? mean[d] : sum[d] / (4 * sum[3]));
+    return sum[3] / 6;
+}
+
+double kr_cell_face(size_t n, const double *point, double middle[3]) {
+    double area = 0;
+    middle_of_face(n, point, middle);
+    for (size_t k = 0; k < n; k++) {
+        double a[3], b[3];
+        for (size_t d = 0; d < 3; d++) {
+            a[d] = point[3 * k + d] - middle[d];
+            b[d] = point[3 * (k + 1 < n ? k + 1 : 0) + d] - middle[d];
+        }
+        area += hypot(hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2]),
+                      a[0] * b[1] - a[1] * b[0]) / 2;
+    }
+    return area;
 }

@@ -1,6 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Exact area and centroid of a simple polygon, convex or not.
+ * Exact area and centroid of a simple polygon, convex or not; volume and centroid of solid cells.
+ *
+ * The faces of solids need a rule, for four corners seldom lie in one plane. A triangle is flat. Any
+ * other face is the fan of triangles between its sides and a point in its middle: where the shape
+ * functions of the finite element put it,
+ *
+ *    4 corners                            mean of the corners
+ *    3 corners, 3 middles of edges        4/9 sum of the middles - 1/9 sum of the corners
+ *    4 corners, 4 middles of edges        1/2 sum of the middles - 1/4 sum of the corners
+ *
+ * The middle does not depend on which of two neighbours looks at the face, so conforming cells fill
+ * a body without gaps and their volumes add up. For four corners the volume is also the mean of
+ * both splits along a diagonal, and that of the trilinear hexahedron.
  */
 #ifndef KR_CELL_H
 #define KR_CELL_H
@@ -22,5 +34,20 @@ double kr_cell_polygon(size_t n, const double *point, double centroid[2]);
 /** Whether a polygon bounds a positive area. A quadrilateral that is not convex passes, one that
  *  crosses itself does not: then no diagonal cuts it into two positive triangles. */
 int kr_cell_is_sound(size_t n, const double *point);
+
+/** Volume [m^3] (positive if the faces look outwards) and centroid of a solid cell.
+ *
+ *  in   n         number of vertices, of which there is a shape (element.h)
+ *  in   point     (n x 3) m
+ *  out  centroid  (3) m; the mean of the vertices where the volume is 0
+ */
+double kr_cell_solid(size_t n, const double *point, double centroid[3]);
+
+/** Area [m^2] of a face by the rule above, and the point in its middle.
+ *
+ *  in   n, point  3, 4, 6 or 8 vertices in their order (n x 3) m; any other number: the mean
+ *  out  middle    (3) m
+ */
+double kr_cell_face(size_t n, const double *point, double middle[3]);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * A mesh becomes nodes: one node a cell, at its area centroid, with its area.
+ * A mesh becomes nodes: one node a cell, at its centroid, with its area or volume.
  */
 #ifndef KR_CONVERT_H
 #define KR_CONVERT_H
@@ -10,9 +10,9 @@
 #include "nodes.h"
 
 /** Nodes, cells and sets of a mesh, in rows (the order in which the solver is fast). A group of cells
- *  becomes the set of its nodes; a group of boundary edges the set of the nodes whose cells have an
- *  edge in it, with the edges' length as the set's measure. `spacing` is the root of the median
- *  area. Stops (exit 2) if the mesh has no cells. */
+ *  becomes the set of its nodes; a group of boundary edges or faces the set of the nodes whose cells
+ *  have one in it, with their length or area as the set's measure. `spacing` is the root of the
+ *  median area, in 3D the cube root of the median volume. Stops (exit 2) if the mesh has no cells. */
 struct kr_nodes *kr_convert(const struct kr_mesh *mesh);
 
 /** Add the sets that the deck defines by place; one named like a boundary takes its place. An unknown
@@ -20,10 +20,10 @@ struct kr_nodes *kr_convert(const struct kr_mesh *mesh);
 void kr_convert_sets(struct kr_deck *deck, const struct kr_case *c, const struct kr_mesh *mesh,
                      struct kr_nodes *nodes);
 
-/** Put nodes into rows: by y in steps of the spacing, then by x. */
+/** Put nodes into rows: in 3D by z in steps of the spacing, then by y likewise, then by x. */
 void kr_convert_order(struct kr_nodes *nodes);
 
-/** Set `spacing` to the root of the median volume. */
+/** Set `spacing` to the side of a square or cube of the median volume. */
 void kr_convert_spacing(struct kr_nodes *nodes);
 
 #endif

@@ -92,7 +92,7 @@ static void make_set(struct kr_deck *deck, const struct kr_case_set *set,
     int64_t *node = KR_NEW(int64_t, nodes->n);
     size_t count = 0;
     for (size_t i = 0; i < nodes->n; i++) {
-        const double *x = nodes->position + 2 * i;
+        const double *x = nodes->position + (size_t)nodes->dim * i;
         if (group ? is_near(&curve, x, set->within) : is_in_box(x, set->lower, set->upper, 0))
             node[count++] = (int64_t)i;
     }

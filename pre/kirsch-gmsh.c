@@ -7,6 +7,10 @@
  * on standard error; both are text and documented in gmsh.h. Every boundary line is transfinite:
  * gmsh may put no point of its own on the boundary. It exits 0 when it has written a mesh; whether
  * the mesh is right, kirsch-mesh finds out for itself.
+ *
+ * With three arguments, FROM TO.msh SIZE, it meshes a body of CAD (STEP, IGES, BREP; lengths are
+ * turned into metres) with cells of that size and writes MSH 4.1. The body becomes the group `body`,
+ * each curve (2D) or surface (3D) of its boundary a group `side_N`, N as gmsh shows it.
  */
 #include <gmshc.h>
 
@@ -164,8 +168,66 @@ static void write_mesh(FILE *file, int n_lines) {
     free(nodes.number);
 }
 
-int main(void) {
+/** All entities of a dimension into groups: one for all, or one each. */
+static void group_entities(int dim, const char *all) {
+    int *pair;
+    size_t n;
+    gmshModelGetEntities(&pair, &n, dim, &trouble);
+    called("the parts of the body");
+    int *tag = room(n, sizeof *tag);
+    for (size_t k = 0; k < n / 2; k++) {
+        char name[40];
+        tag[k] = pair[2 * k + 1];
+        snprintf(name, sizeof name, "side_%d", tag[k]);
+        if (all)
+            continue;
+        int group = gmshModelAddPhysicalGroup(dim, &tag[k], 1, -1, &trouble);
+        gmshModelSetPhysicalName(dim, group, name, &trouble);
+    }
+    if (all) {
+        int group = gmshModelAddPhysicalGroup(dim, tag, n / 2, -1, &trouble);
+        gmshModelSetPhysicalName(dim, group, all, &trouble);
+    }
+    called("the groups");
+    free(tag);
+    gmshFree(pair);
+}
+
+static void mesh_body(const char *from, const char *to, double size) {
+    set("General.Terminal", 1);
+    set("General.Verbosity", 2);
+    set("General.NumThreads", 1);
+    set("General.AbortOnError", 0);
+    gmshOptionSetString("Geometry.OCCTargetUnit", "M", &trouble);
+    called("the unit");
+    gmshOpen(from, &trouble);
+    called("reading the file");
+    int dim = gmshModelGetDimension(&trouble);
+    called("the dimension");
+    if (dim < 2)
+        fail("the file holds neither a plane face nor a solid");
+    group_entities(dim, "body");
+    group_entities(dim - 1, NULL);
+    set("Mesh.CharacteristicLengthMin", size);
+    set("Mesh.CharacteristicLengthMax", size);
+    set("Mesh.RecombineAll", dim == 2);
+    gmshModelMeshGenerate(dim, &trouble);
+    called("meshing");
+    set("Mesh.MshFileVersion", 4.1);
+    set("Mesh.Binary", 1);
+    gmshWrite(to, &trouble);
+    called("writing the mesh");
+}
+
+int main(int argc, char **argv) {
     struct order order;
+    if (argc == 4) {
+        gmshInitialize(0, NULL, 0, &trouble);
+        called("starting gmsh");
+        mesh_body(argv[1], argv[2], strtod(argv[3], NULL));
+        gmshFinalize(&trouble);
+        return 0;
+    }
     if (scanf(" region algorithm %d recombination %d size %lf loops %d", &order.algorithm,
               &order.recombination, &order.size, &order.n_loops) != 4 ||
         order.n_loops < 1)

@@ -14,6 +14,7 @@
 
 struct kr_mesh *kr_mesh_create(void) {
     struct kr_mesh *mesh = KR_NEW(struct kr_mesh, 1);
+    mesh->dim = 2;
     mesh->first = KR_NEW(size_t, 1);
     return mesh;
 }
@@ -31,6 +32,9 @@ void kr_mesh_free(struct kr_mesh *mesh) {
     kr_free(mesh->vertex);
     kr_free(mesh->cell_tag);
     kr_free(mesh->edge);
+    kr_free(mesh->face_first);
+    kr_free(mesh->face);
+    kr_free(mesh->point_tag);
     kr_free(mesh);
 }
 
@@ -39,6 +43,41 @@ const struct kr_mesh_group *kr_mesh_group(const struct kr_mesh *mesh, const char
         if (mesh->group[g].dim == dim && !strcmp(mesh->group[g].name, name))
             return &mesh->group[g];
     return NULL;
+}
+
+int64_t kr_mesh_point_tag(const struct kr_mesh *mesh, size_t point) {
+    return mesh->point_tag ? mesh->point_tag[point] : (int64_t)point + 1;
+}
+
+static void renumber(const size_t *now_at, size_t count, size_t *index) {
+    for (size_t k = 0; k < count; k++)
+        index[k] = now_at[index[k]];
+}
+
+void kr_mesh_drop_points(struct kr_mesh *mesh, const unsigned char *is_gone) {
+    size_t *now_at = KR_NEW(size_t, mesh->n_points), kept = 0;
+    for (size_t p = 0; p < mesh->n_points; p++) {
+        if (is_gone[p])
+            continue;
+        now_at[p] = kept;
+        memmove(mesh->point + 3 * kept, mesh->point + 3 * p, 3 * sizeof *mesh->point);
+        if (mesh->point_tag)
+            mesh->point_tag[kept] = mesh->point_tag[p];
+        kept++;
+    }
+    mesh->n_points = kept;
+    renumber(now_at, mesh->first[mesh->n_cells], mesh->vertex);
+    renumber(now_at, 2 * mesh->n_edges, mesh->edge);
+    renumber(now_at, mesh->n_faces ? mesh->face_first[mesh->n_faces] : 0, mesh->face);
+    for (size_t g = 0; g < mesh->n_groups; g++) {
+        struct kr_mesh_group *group = &mesh->group[g];
+        size_t n = 0;
+        for (size_t k = 0; group->dim == 0 && k < group->count; k++)
+            if (!is_gone[group->member[k]])
+                group->member[n++] = now_at[group->member[k]];
+        group->count = group->dim == 0 ? n : group->count;
+    }
+    kr_free(now_at);
 }
 
 static char *points_fault(const struct kr_mesh *mesh) {
@@ -137,9 +176,11 @@ static char *edges_fault(const struct kr_mesh *mesh, const struct kr_sides *side
 static char *groups_fault(const struct kr_mesh *mesh) {
     for (size_t g = 0; g < mesh->n_groups; g++) {
         const struct kr_mesh_group *group = &mesh->group[g];
-        size_t items = group->dim == 1 ? mesh->n_edges : mesh->n_cells;
-        if (!group->name || !group->name[0] || group->dim < 1 || group->dim > 2)
-            return kr_text("group %zu has no name or is neither of edges nor of cells", g);
+        size_t facets = mesh->dim == 2 ? mesh->n_edges : mesh->n_faces;
+        size_t items = group->dim == mesh->dim ? mesh->n_cells : facets;
+        if (!group->name || !group->name[0] || group->dim < mesh->dim - 1 || group->dim > mesh->dim)
+            return kr_text("group %zu has no name or is neither of %s nor of cells", g,
+                           mesh->dim == 2 ? "edges" : "faces");
         if (kr_mesh_group(mesh, group->name, group->dim) != group)
             return kr_text("two groups have the name '%s'", group->name);
         for (size_t k = 0; k < group->count; k++) {
@@ -155,6 +196,11 @@ static char *groups_fault(const struct kr_mesh *mesh) {
 
 char *kr_mesh_fault(const struct kr_mesh *mesh) {
     char *fault = points_fault(mesh);
+    if (mesh->dim == 3) {
+        if (!fault)
+            fault = kr_mesh_solid_fault(mesh);
+        return fault ? fault : groups_fault(mesh);
+    }
     if (!fault)
         fault = indices_fault(mesh);
     if (!fault)

@@ -209,7 +209,7 @@ static void drop_group(struct kr_mesh *mesh, const struct kr_mesh_group *group) 
 void kr_pieces_join(struct kr_mesh *mesh, const char *path) {
     const struct kr_mesh_group *group = kr_mesh_group(mesh, KR_PIECES_GROUP, 2);
     size_t k = 0, *ring = NULL;
-    if (!group)
+    if (!group || mesh->dim != 2)
         return;
     struct rewriting new = begin(mesh);
     for (size_t c = 0, end; c < mesh->n_cells; c = end) {

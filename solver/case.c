@@ -121,11 +121,13 @@ static const struct kr_deck_key set_keys[] = {
 static const struct kr_deck_key nodes_keys[] = {
     {"horizon", NUMBER_OF(AT(horizon), "m"), POSITIVE,
      .text = "Reach of the bonds; 3 to 6 spacings, at least 2."},
-    {"partial_volume", KR_DECK_CHOICE, AT(partial_volume), .words = KR_PARTIAL_VOLUME_WORDS, .fallback = "hhb",
-     .text = "Share of a cell that counts where the horizon cuts it: `hhb`, linear over the "
-             "half width of the cell, the mean of both ends of a bond; `none`: all or nothing; "
-             "`exact`: the area of the cell inside the circle, the mean of both ends; "
-             "`exact-centroid`: the same, the bond reaching to the centroid of that part; "
+    {"partial_volume", KR_DECK_CHOICE, AT(partial_volume), .words = KR_PARTIAL_VOLUME_WORDS,
+     .fallback = "exact-centroid",
+     .text = "Share of a cell that counts where the horizon cuts it: `exact`, the area of the cell "
+             "inside the circle, the mean of both ends of a bond; `exact-centroid`: the same, the bond "
+             "reaching to the centroid of that part; `hhb`: linear over the width of the cell, the "
+             "mean of both ends, and the default of nodes that came without cells; `none`: all or "
+             "nothing; "
              "`hhb-one-sided`: of the far cell alone, as published; on unequal cells momentum then "
              "drifts, so it is for comparison only."},
     {"surface_correction", KR_DECK_CHOICE, AT(surface_correction), .words = KR_SURFACE_WORDS,
@@ -238,6 +240,10 @@ static const struct kr_deck_key track_keys[] = {
 
 const struct kr_deck_key kr_case_keys[] = {
     {"title", KR_DECK_TEXT, AT(title), .fallback = "", .text = "A line for people."},
+    {"preset", KR_DECK_CHOICE, AT(preset), .words = KR_PRESET_WORDS, .fallback = "none",
+     .text = "Choices in one word, for keys that the deck does not give itself. `plates-paper`: as in "
+             "the plates paper, `grid: near-boundary`, `partial_volume: hhb-one-sided`, "
+             "`surface_correction: energy`, `surface_deformation: uniaxial-y`."},
     {"no_fail", KR_DECK_TEXTS, AT(no_fail), .fallback = "",
      .text = "Names of sets whose bonds never break, such as those that carry the load."},
     {"geometry", KR_DECK_SECTION, .keys = geometry_keys, .text = "The plate and its holes."},

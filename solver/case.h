@@ -16,6 +16,8 @@
 #define KR_SURFACE_WORDS "energy none volume force-density"
 #define KR_DEFORMATION_WORDS "uniaxial-y uniaxial-x isotropic mean-over-axes"
 #define KR_MODEL_WORDS "plane-stress plane-strain"
+#define KR_PRESET_WORDS "none plates-paper"
+enum kr_preset { KR_PRESET_NONE, KR_PRESET_PLATES_PAPER };
 enum kr_grid { KR_GRID_NEAR_BOUNDARY, KR_GRID_UNIFORM, KR_GRID_FREE, KR_GRID_VORONOI };
 enum kr_hole_shape {
     KR_HOLE_CIRCLE,
@@ -97,6 +99,7 @@ struct kr_case_box {
 
 struct kr_case {
     const char *title;
+    int preset; /* enum kr_preset */
 
     /* geometry */
     double width, height; /* m: plate with its lower left corner at (0, 0) */
@@ -164,6 +167,10 @@ struct kr_case_arguments {
  *  [--version] case.yaml`. --help prints `usage` and exits 0; faults stop (exit 2). The deck is the
  *  first argument that ends in .yaml or .yml, else the first that is no option. */
 void kr_case_arguments(int argc, char **argv, const char *usage, struct kr_case_arguments *out);
+
+/** Fill in what the case's preset chooses and the deck does not give itself. `c` must be the struct
+ *  that the deck was read into. */
+void kr_case_preset(const struct kr_deck *deck, struct kr_case *c);
 
 /** Check what no single key can tell: horizon against spacing, loads against sets. Faults are
  *  collected in the deck. `c` must be the struct that the deck was read into. */

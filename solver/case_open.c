@@ -158,6 +158,7 @@ struct kr_deck *kr_case_open(const struct kr_case_arguments *arguments, struct k
     struct kr_deck *deck =
         kr_deck_open(arguments->deck, arguments->variant, arguments->n_set, arguments->set);
     kr_deck_read(deck, kr_case_keys, out);
+    kr_case_preset(deck, out);
     kr_case_check(deck, out);
     kr_deck_finish(deck);
     kr_case_warn(deck, out);

@@ -155,12 +155,25 @@ static char *fault_of_sets(const struct kr_nodes *nodes) {
     return NULL;
 }
 
+/* Tetrahedra, pyramids, wedges and hexahedra of first and second order. */
+static int is_solid(int64_t vertices) {
+    static const int64_t known[] = {4, 5, 6, 8, 10, 13, 15, 20};
+    for (size_t k = 0; k < sizeof known / sizeof *known; k++)
+        if (vertices == known[k])
+            return 1;
+    return 0;
+}
+
 static char *fault_of_cells(const struct kr_nodes *nodes) {
     if (!nodes->n_points)
         return NULL;
     for (size_t i = 0; i < nodes->n; i++) {
-        if (nodes->first[i + 1] < nodes->first[i] + 3)
+        int64_t corners = nodes->first[i + 1] - nodes->first[i];
+        if (corners < 3)
             return kr_text("the cell of node %zu has fewer than 3 corners", i);
+        if (nodes->dim == 3 && !is_solid(corners))
+            return kr_text("the cell of node %zu has %lld vertices, and no solid has so many", i,
+                           (long long)corners);
         for (int64_t k = nodes->first[i]; k < nodes->first[i + 1]; k++)
             if (nodes->vertex[k] < 0 || nodes->vertex[k] >= (int64_t)nodes->n_points)
                 return kr_text("the cell of node %zu has the corner %lld; expected 0 to %zu", i,

@@ -15,7 +15,7 @@ struct kr_set {
     char *name;
     size_t count;
     int64_t *node;   /* (count) ascending */
-    double measure;  /* m (2D): length of the boundary it belongs to; 0: it belongs to none */
+    double measure;  /* length [m] or, in 3D, area [m^2] of the boundary it belongs to; 0: of none */
 };
 
 /** What the surface factors were made for. kirsch-solve refuses others. Texts are deck words. */
@@ -34,9 +34,9 @@ enum kr_pairing { KR_PAIRING_MEAN, KR_PAIRING_HARMONIC, KR_PAIRING_ELLIPSE };
 struct kr_nodes {
     int dim;
     size_t n;
-    double spacing;      /* m: of the lattice, or sqrt of the median volume */
+    double spacing;      /* m: of the lattice, or the side of a square or cube of median volume */
     double *position;    /* (n x dim) m */
-    double *volume;      /* (n) m^2 */
+    double *volume;      /* (n) m^2; 3D: m^3 */
     double *factor;      /* (n) surface factor lambda, 1 where there is no correction */
     int pairing;         /* enum kr_pairing */
     double *axis_factor; /* (n x dim) factors along the axes; NULL without KR_PAIRING_ELLIPSE */
@@ -45,7 +45,7 @@ struct kr_nodes {
     size_t n_points;     /* the cells' corners; 0 if the nodes came without cells */
     double *point;       /* (n_points x dim) m */
     int64_t *first;      /* (n + 1) where the corners of a node's cell begin in `vertex` */
-    int64_t *vertex;
+    int64_t *vertex;     /* polygons counter-clockwise; solids as in docs/formats.md */
     size_t n_sets;
     struct kr_set *set;
     struct kr_nodes_made_for made_for;

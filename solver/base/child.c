@@ -47,9 +47,8 @@ void kr_child_prepare(struct kr_child *child) {
 }
 
 /** In the child: only calls that are safe between fork and exec. */
-_Noreturn static void become(const char *program, char *const *environment, const int file[3],
+_Noreturn static void become(char *const *word, char *const *environment, const int file[3],
                              unsigned seconds, pid_t parent) {
-    char *arguments[] = {(char *)(uintptr_t)program, NULL};
     sigset_t none;
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, NULL);
@@ -62,11 +61,16 @@ _Noreturn static void become(const char *program, char *const *environment, cons
         if (dup2(file[k], k) < 0)
             _exit(NOT_STARTED);
     personality(ADDR_NO_RANDOMIZE); /* where this is forbidden, nothing is lost but certainty */
-    execve(program, arguments, environment);
+    execve(word[0], word, environment);
     _exit(NOT_STARTED);
 }
 
 void kr_child_start(struct kr_child *child, const char *program, unsigned seconds) {
+    char *word[] = {(char *)(uintptr_t)program, NULL};
+    kr_child_start_words(child, word, seconds);
+}
+
+void kr_child_start_words(struct kr_child *child, char *const *word, unsigned seconds) {
     int file[3] = {fileno(child->in), fileno(child->out), fileno(child->said)};
     pid_t parent = getpid();
     const char *libraries = getenv("LD_LIBRARY_PATH");
@@ -82,9 +86,9 @@ void kr_child_start(struct kr_child *child, const char *program, unsigned second
     child->started = kr_child_clock();
     child->pid = fork();
     if (child->pid < 0)
-        kr_stop(KR_EXIT_LIBRARY, "%s cannot be started: %s", program, strerror(errno));
+        kr_stop(KR_EXIT_LIBRARY, "%s cannot be started: %s", word[0], strerror(errno));
     if (child->pid == 0)
-        become(program, environment, file, seconds, parent);
+        become(word, environment, file, seconds, parent);
     kr_free(kept);
 }
 
@@ -130,13 +134,35 @@ void kr_child_close(struct kr_child *child) {
     fclose(child->said);
 }
 
-char *kr_child_beside(const char *name) {
-    char self[4096];
-    ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
+/** Folder of this program, into `self`. */
+static void own_folder(char *self, size_t room) {
+    ssize_t length = readlink("/proc/self/exe", self, room - 1);
     if (length <= 0)
         kr_stop(KR_EXIT_LIBRARY, "/proc/self/exe cannot be read: %s", strerror(errno));
     self[length] = 0;
     *strrchr(self, '/') = 0;
+}
+
+char *kr_child_script(const char *name) {
+    char self[4096];
+    own_folder(self, sizeof self);
+    char *beside = kr_text("%s/%s", self, name);
+    char *installed = kr_text("%s/../share/kirsch/%s", self, name);
+    if (access(beside, R_OK) == 0) {
+        kr_free(installed);
+        return beside;
+    }
+    if (access(installed, R_OK))
+        kr_stop(KR_EXIT_LIBRARY,
+                "%s is missing: it lies neither at %s nor at %s; run make or make install again",
+                name, beside, installed);
+    kr_free(beside);
+    return installed;
+}
+
+char *kr_child_beside(const char *name) {
+    char self[4096];
+    own_folder(self, sizeof self);
     char *path = kr_text("%s/%s", self, name);
     if (access(path, X_OK))
         kr_stop(KR_EXIT_LIBRARY, "the program %s is missing: it should stand at %s", name, path);

@@ -24,6 +24,9 @@ void kr_child_prepare(struct kr_child *child);
  * be made. */
 void kr_child_start(struct kr_child *child, const char *program, unsigned seconds);
 
+/** The same with arguments: `word` is the program, its arguments, NULL. */
+void kr_child_start_words(struct kr_child *child, char *const *word, unsigned seconds);
+
 /** Wait for any child; returns its pid and its status as of waitpid. */
 pid_t kr_child_wait(int *status);
 
@@ -39,6 +42,10 @@ void kr_child_close(struct kr_child *child);
 /** Path of a program in the same folder as this one, owned by the caller. Stops (exit 5) where
  *  there is none. */
 char *kr_child_beside(const char *name);
+
+/** Path of a script, owned by the caller: beside this program (in the build) or in ../share/kirsch
+ *  (installed). Stops (exit 5) where there is none. */
+char *kr_child_script(const char *name);
 
 /** Monotonic time [s]. */
 double kr_child_clock(void);

@@ -269,7 +269,7 @@ static void spoil(const char *from, const char *to, const char *text) {
 
 static void faults_are_named_with_their_line(void **unused) {
     (void)unused;
-    spoil("4.1 0 8", "2.2 0 8", "spoilt.msh:2: the file is MSH version '2.2', and 4.1 is needed");
+    spoil("4.1 0 8", "4.0 0 8", "spoilt.msh:2: the file is MSH version '4.0', and 2.2 or 4.1 is");
     spoil("$MeshFormat", "(0 \"Fluent\")", "spoilt.msh:1: expected $MeshFormat, found '(0'");
     spoil("\"body\"", "body", "spoilt.msh:9: expected a physical name in quotes");
     spoil("2 6 10 90", "2 7 10 90", "expected 7 nodes, found 6");
@@ -282,8 +282,8 @@ static void faults_are_named_with_their_line(void **unused) {
     spoil("30 40 55 90", "3 40 55 90", "element 3 stands twice");
     spoil("2 9 2 1\n", "2 8 2 1\n", "elements lie on surface 8, which $Entities does not name");
     spoil("2 9 2 1\n", "1 4 2 1\n", "cannot lie on an entity of dimension 1");
-    spoil("2 9 2 1\n", "2 9 9 1\n", "elements of type 9 are not read");
-    spoil("2 9 2 1\n", "3 9 4 1\n", "are solids");
+    spoil("2 9 2 1\n", "2 9 21 1\n", "elements of type 21 are not read");
+    spoil("2 9 2 1\n", "3 9 4 1\n", "elements lie on volume 9, which $Entities does not name");
     spoil("3 3 3 30", "3 2 3 30", "more elements than the section announced");
     spoil("3 3 3 30", "3 4 3 30", "1 elements fewer than the section announced");
     spoil("$EndComments", "$EndComment", "section $Comments does not end");

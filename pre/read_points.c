@@ -1,0 +1,305 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Reading nodes and node sets from text. See points.h.
+ */
+#include "points.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "convert.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+enum column { ID, X, Y, Z, VOLUME, BLOCK, COLUMNS, UNKNOWN = COLUMNS };
+enum { MOST_COLUMNS = 64 };
+
+struct table {
+    const char *path;
+    size_t number; /* of the line */
+    size_t n_columns;
+    enum column column[MOST_COLUMNS];
+    int has[COLUMNS + 1];
+    size_t count, room;
+    double (*row)[COLUMNS];
+};
+
+static const char BETWEEN[] = " \t,;\r\n";
+
+/** Cut a comment off; whether anything is left. */
+static int has_content(char *line) {
+    line[strcspn(line, "#")] = 0;
+    return line[strspn(line, BETWEEN)] != 0;
+}
+
+static enum column column_of(const char *name) {
+    static const struct {
+        const char *name;
+        enum column column;
+    } known[] = {{"id", ID},         {"global_id", ID},  {"x", X},          {"y", Y},
+                 {"z", Z},           {"volume", VOLUME}, {"vol", VOLUME},   {"area", VOLUME},
+                 {"block_id", BLOCK}, {"block", BLOCK}};
+    for (size_t k = 0; k < sizeof known / sizeof *known; k++)
+        if (!strcasecmp(name, known[k].name))
+            return known[k].column;
+    return UNKNOWN;
+}
+
+static void add_column(struct table *table, enum column column) {
+    if (table->n_columns == MOST_COLUMNS)
+        kr_stop(KR_EXIT_INPUT, "%s:%zu: more than %d columns", table->path, table->number,
+                MOST_COLUMNS);
+    if (column != UNKNOWN && table->has[column])
+        kr_stop(KR_EXIT_INPUT, "%s:%zu: two columns have the same meaning", table->path,
+                table->number);
+    table->has[column] = 1;
+    table->column[table->n_columns++] = column;
+}
+
+/** The line with the names of the columns. */
+static void read_names(struct table *table, char *line) {
+    char *rest = NULL;
+    for (char *word = strtok_r(line, BETWEEN, &rest); word; word = strtok_r(NULL, BETWEEN, &rest)) {
+        if (word[0] == '[' || word[0] == '(' || !strcasecmp(word, "header:"))
+            continue; /* a unit */
+        word[strcspn(word, "[(")] = 0;
+        enum column column = column_of(word);
+        if (column == UNKNOWN)
+            kr_warn("%s:%zu: the column '%s' is not used", table->path, table->number, word);
+        add_column(table, column);
+    }
+    if (!table->has[X] || !table->has[Y] || !table->has[VOLUME])
+        kr_stop(KR_EXIT_INPUT, "%s:%zu: expected columns named x, y and volume at the least",
+                table->path, table->number);
+}
+
+/** Columns of a file without names. */
+static void assume_columns(struct table *table) {
+    static const enum column peridigm[] = {X, Y, Z, VOLUME, BLOCK};
+    for (size_t k = 0; k < sizeof peridigm / sizeof *peridigm; k++)
+        add_column(table, peridigm[k]);
+}
+
+static const char *const what[] = {"a node number", "x",  "y", "z", "a volume", "a block number",
+                                   "a number"};
+
+static double read_number(const struct table *table, char **at, enum column column) {
+    char *from = *at + strspn(*at, BETWEEN), *end;
+    double value = strtod(from, &end);
+    if (end == from || !isfinite(value) || (*end && !strchr(BETWEEN, *end)))
+        kr_stop(KR_EXIT_INPUT, "%s:%zu: expected %s, found '%.*s'", table->path, table->number,
+                what[column], (int)strcspn(from, BETWEEN), from);
+    *at = end;
+    return value;
+}
+
+static void read_row(struct table *table, char *line) {
+    KR_GROW(table->row, table->count, table->room);
+    double *row = table->row[table->count++];
+    char *at = line;
+    for (size_t k = 0; k < table->n_columns; k++) {
+        enum column column = table->column[k];
+        double value = column == UNKNOWN && at[strspn(at, BETWEEN)] == 0
+                           ? 0
+                           : read_number(table, &at, column);
+        if (column != UNKNOWN)
+            row[column] = value;
+    }
+    at += strspn(at, BETWEEN);
+    if (*at)
+        kr_stop(KR_EXIT_INPUT, "%s:%zu: found '%.40s' behind the last of %zu columns", table->path,
+                table->number, at, table->n_columns);
+    if (!(row[VOLUME] > 0))
+        kr_stop(KR_EXIT_INPUT, "%s:%zu: the volume is %g; expected a positive one", table->path,
+                table->number, row[VOLUME]);
+}
+
+/** Whether a line begins with a name, not a number. "nan" and "inf" are neither. */
+static int is_names(const char *line) {
+    line += strspn(line, BETWEEN);
+    return isalpha((unsigned char)*line) && strncasecmp(line, "nan", 3) && strncasecmp(line, "inf", 3);
+}
+
+/** A line of a text file without its comment; 0 at the end. A zero byte is no text. */
+static int next_line(struct table *table, FILE *file, char **line, size_t *room) {
+    ssize_t length;
+    while ((length = getline(line, room, file)) >= 0) {
+        table->number++;
+        if (strlen(*line) != (size_t)length)
+            kr_stop(KR_EXIT_INPUT, "%s:%zu: this is no text", table->path, table->number);
+        if (has_content(*line))
+            return 1;
+    }
+    return 0;
+}
+
+static FILE *open_text(const char *path) {
+    FILE *file = fopen(path, "r");
+    if (!file)
+        kr_stop(KR_EXIT_INPUT, "%s: cannot be read: %s", path, strerror(errno));
+    return file;
+}
+
+static struct table read_table(const char *path) {
+    struct table table = {.path = path};
+    FILE *file = open_text(path);
+    char *line = NULL;
+    size_t room = 0;
+    while (next_line(&table, file, &line, &room)) {
+        if (!table.n_columns && is_names(line)) {
+            read_names(&table, line);
+            continue;
+        }
+        if (!table.n_columns)
+            assume_columns(&table);
+        read_row(&table, line);
+    }
+    free(line);
+    fclose(file);
+    if (!table.count)
+        kr_stop(KR_EXIT_INPUT, "%s: no nodes found; expected lines of `x y z volume block`",
+                path);
+    return table;
+}
+
+/* ---- nodes ---- */
+
+static int is_plane(const struct table *table) {
+    for (size_t i = 1; table->has[Z] && i < table->count; i++)
+        if (table->row[i][Z] != table->row[0][Z])
+            return 0;
+    return 1;
+}
+
+static int64_t whole(const struct table *table, size_t i, enum column column) {
+    double value = table->row[i][column];
+    if (value != round(value) || fabs(value) > 9e15)
+        kr_stop(KR_EXIT_INPUT, "%s: row %zu has %g for %s; expected a whole number", table->path,
+                i + 1, value, what[column]);
+    return (int64_t)value;
+}
+
+static void add_blocks(const struct table *table, struct kr_nodes *nodes) {
+    int64_t *all = KR_NEW(int64_t, nodes->n), *block = KR_NEW(int64_t, nodes->n);
+    for (size_t i = 0; i < nodes->n; i++) {
+        all[i] = (int64_t)i;
+        block[i] = table->has[BLOCK] ? whole(table, i, BLOCK) : 1;
+    }
+    kr_nodes_add_set(nodes, nodes->dim == 2 ? "plate" : "body", nodes->n, all, 0);
+    for (size_t i = 0; table->has[BLOCK] && i < nodes->n; i++) {
+        char *name = kr_text("block_%lld", (long long)block[i]);
+        if (!kr_nodes_set(nodes, name)) {
+            int64_t *node = KR_NEW(int64_t, nodes->n);
+            size_t count = 0;
+            for (size_t k = i; k < nodes->n; k++)
+                if (block[k] == block[i])
+                    node[count++] = (int64_t)k;
+            kr_nodes_add_set(nodes, name, count, kr_realloc(node, count, sizeof *node), 0);
+        }
+        kr_free(name);
+    }
+    kr_free(block);
+}
+
+struct kr_nodes *kr_points_read(const char *path, double unit, double thickness) {
+    struct table table = read_table(path);
+    int dim = is_plane(&table) ? 2 : 3;
+    double volume = unit * unit;
+    if (dim == 3 || thickness > 0)
+        volume *= dim == 3 ? unit : unit / thickness;
+    struct kr_nodes *nodes = kr_nodes_create(dim, table.count);
+    for (size_t i = 0; i < table.count; i++) {
+        nodes->tag[i] = table.has[ID] ? whole(&table, i, ID) : (int64_t)i + 1;
+        nodes->volume[i] = table.row[i][VOLUME] * volume;
+        for (int d = 0; d < dim; d++)
+            nodes->position[(size_t)dim * i + (size_t)d] = table.row[i][X + d] * unit;
+    }
+    add_blocks(&table, nodes);
+    kr_free(table.row);
+    kr_convert_spacing(nodes);
+    kr_convert_order(nodes);
+    char *fault = kr_nodes_fault(nodes);
+    if (fault)
+        kr_stop(KR_EXIT_INPUT, "%s: %s", path, fault);
+    return nodes;
+}
+
+/* ---- node sets ---- */
+
+struct numbered {
+    int64_t tag, node;
+};
+
+static int by_tag(const void *p, const void *q) {
+    const struct numbered *a = p, *b = q;
+    return (a->tag > b->tag) - (a->tag < b->tag);
+}
+
+static int ascending(const void *p, const void *q) {
+    int64_t a = *(const int64_t *)p, b = *(const int64_t *)q;
+    return (a > b) - (a < b);
+}
+
+static struct numbered *nodes_by_tag(const struct kr_nodes *nodes) {
+    struct numbered *item = KR_NEW(struct numbered, nodes->n);
+    for (size_t i = 0; i < nodes->n; i++)
+        item[i] = (struct numbered){nodes->tag[i], (int64_t)i};
+    qsort(item, nodes->n, sizeof *item, by_tag);
+    return item;
+}
+
+/** "left" of PATH/grid_ns_left.txt, nodelist_left.txt and left.txt; owned by the caller. */
+static char *name_of_set(const char *path) {
+    static const char *const before[] = {"_ns_", "ns_", "nodelist_", "nodeset_", "node_set_"};
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    const char *inside = strstr(name, before[0]);
+    if (inside)
+        name = inside + strlen(before[0]);
+    for (size_t k = 1; k < sizeof before / sizeof *before && !inside; k++)
+        if (!strncmp(name, before[k], strlen(before[k])) && name[strlen(before[k])] != '.')
+            inside = name += strlen(before[k]);
+    return kr_text("%.*s", (int)strcspn(name, "."), name);
+}
+
+void kr_points_read_set(const char *path, struct kr_nodes *nodes) {
+    struct table table = {.path = path};
+    struct numbered *known = nodes_by_tag(nodes), *hit;
+    FILE *file = open_text(path);
+    char *line = NULL, *word, *rest, *end;
+    size_t room = 0, count = 0, node_room = 0, kept = 0;
+    int64_t *node = NULL;
+    while (next_line(&table, file, &line, &room)) {
+        if (is_names(line))
+            continue; /* PeriLab's `header: global_id` */
+        rest = NULL;
+        for (word = strtok_r(line, BETWEEN, &rest); word; word = strtok_r(NULL, BETWEEN, &rest)) {
+            struct numbered key = {strtoll(word, &end, 10), 0};
+            hit = bsearch(&key, known, nodes->n, sizeof *known, by_tag);
+            if (*end || !hit)
+                kr_stop(KR_EXIT_INPUT, "%s:%zu: expected the number of a node, found '%.40s'", path,
+                        table.number, word);
+            KR_GROW(node, count, node_room);
+            node[count++] = hit->node;
+        }
+    }
+    free(line);
+    fclose(file);
+    kr_free(known);
+    if (!count)
+        kr_stop(KR_EXIT_INPUT, "%s: no node numbers found", path);
+    qsort(node, count, sizeof *node, ascending);
+    for (size_t k = 0; k < count; k++)
+        if (!kept || node[k] != node[kept - 1])
+            node[kept++] = node[k];
+    char *name = name_of_set(path);
+    if (kr_nodes_set(nodes, name))
+        kr_stop(KR_EXIT_INPUT, "%s: there is a set '%s' already; give the file another name", path,
+                name);
+    kr_nodes_add_set(nodes, name, kept, node, 0);
+    kr_free(name);
+}
