@@ -5,6 +5,7 @@
 #   make test       all tests (ONLY=word: those whose name contains the word)
 #   make bench      measure the speed; writes build/bench.csv
 #   make deps       list what the system lacks and install it (Debian; sudo where not root)
+#   make corrections  write docs/corrections.md anew: all partial volumes with all surface corrections
 #   make docs       write docs/deck.md anew from the table that reads the deck
 #   make format     clang-format the sources
 #   make install    PREFIX=/usr/local
@@ -33,8 +34,8 @@ LIBS      = $(shell pkg-config --libs hdf5 libfyaml 2>/dev/null) -ludunits2 -lmu
 
 # What Debian must provide to build and run, and to test.
 PACKAGES := pkg-config libhdf5-dev libfyaml-dev libudunits2-dev libmuparser-dev libgmsh-dev \
-            libcmocka-dev python3 python3-numpy python3-matplotlib python3-h5py ffmpeg \
-            python3-meshio python3-netcdf4 gmsh
+            libmetis-dev libcmocka-dev python3 python3-numpy python3-matplotlib python3-h5py \
+            ffmpeg python3-meshio python3-netcdf4 gmsh
 
 programs_c := $(wildcard pre/kirsch-*.c solver/kirsch-*.c post/kirsch-*.c) $(wildcard solver/kirsch.c)
 library_c  := $(filter-out $(programs_c) solver/kernel.c,$(wildcard solver/base/*.c solver/*.c \
@@ -52,7 +53,7 @@ KERNEL_baseline :=
 KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 
-.PHONY: FORCE all help demo test bench deps docs format install clean check-deps
+.PHONY: FORCE all help demo test bench deps corrections docs format install clean check-deps
 all: check-deps $(programs) $(scripts)
 
 help:
@@ -97,14 +98,18 @@ $(BUILD)/solver/kernel_%.o: solver/kernel.c
 define program_rule
 $(BUILD)/$(basename $(notdir $(1))): $(BUILD)/$(basename $(1)).o $(BUILD)/libkirsch.a
 	@echo "  link  $$(@F)"
-	$$(Q)$(CC) $$(CFLAGS) -fopenmp $$< $(BUILD)/libkirsch.a $$(if $$(findstring gmsh,$$(@F)),-lgmsh) $$(LIBS) -o $$@
+	$$(Q)$(CC) $$(CFLAGS) -fopenmp $$< $(BUILD)/libkirsch.a $$(if $$(findstring gmsh,$$(@F)),-lgmsh) $$(if $$(findstring nodes,$$(@F)),-lmetis) $$(LIBS) -o $$@
 endef
 $(foreach c,$(programs_c),$(eval $(call program_rule,$(c))))
 
 $(BUILD)/tests/%: tests/%.c tests/test.h $(BUILD)/libkirsch.a
 	@mkdir -p $(@D)
 	@echo "  test  $<"
-	$(Q)$(CC) $(ALL_FLAGS) -Itests $< $(BUILD)/libkirsch.a $(LIBS) -lcmocka -o $@
+	$(Q)$(CC) $(ALL_FLAGS) -Itests $< $(BUILD)/libkirsch.a $(LIBS) -lmetis -lcmocka -o $@
+
+$(BUILD)/corrections: $(BUILD)/cases/corrections/corrections.o $(BUILD)/libkirsch.a
+	@echo "  link  $(@F)"
+	$(Q)$(CC) $(CFLAGS) -fopenmp $^ $(LIBS) -o $@
 
 # ---- running --------------------------------------------------------------------------------
 demo: deps
@@ -118,6 +123,9 @@ test: deps
 bench: deps
 	@$(MAKE) --no-print-directory all
 	@$(BUILD)/kirsch-bench $(BUILD)/bench.csv
+
+corrections: all $(BUILD)/corrections
+	@BUILD=$(BUILD) cases/corrections/table
 
 docs: all
 	@$(BUILD)/kirsch --deck-reference > docs/deck.md
@@ -133,4 +141,5 @@ install: all
 clean:
 	rm -rf $(BUILD)
 
--include $(library_o:.o=.d) $(kernel_o:.o=.d) $(patsubst %.c,$(BUILD)/%.d,$(programs_c)) $(tests:=.d)
+-include $(library_o:.o=.d) $(kernel_o:.o=.d) $(patsubst %.c,$(BUILD)/%.d,$(programs_c)) $(tests:=.d) \
+         $(BUILD)/cases/corrections/corrections.d

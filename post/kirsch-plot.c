@@ -33,9 +33,9 @@ static void hand_over(const struct kr_case *c, const struct kr_case_arguments *a
     for (size_t k = 0; k < arguments->n_left; k++)
         word[n++] = (char *)arguments->left[k];
     for (size_t k = 0; k < n_holes; k++) {
+        double centre[2], radius = kr_case_hole_reach(&hole[k], centre);
         word[n++] = "--hole";
-        word[n++] =
-            kr_text("%.17g,%.17g,%.17g", hole[k].centre[0], hole[k].centre[1], hole[k].radius);
+        word[n++] = kr_text("%.17g,%.17g,%.17g", centre[0], centre[1], radius);
     }
     execv(PYTHON, word);
     kr_stop(KR_EXIT_LIBRARY,

@@ -81,33 +81,6 @@ void kr_builder_group_edges(struct kr_builder *builder, const char *name) {
     builder->grouped_edges = builder->mesh->n_edges;
 }
 
-/** One side of a cell, from lattice point (i, j) to (k, l), unless that cell is gone. */
-static void outline_edge(struct kr_builder *builder, const unsigned char *is_gone, size_t cell,
-                         const size_t end[4]) {
-    if (!is_gone || !is_gone[cell])
-        kr_builder_edge(builder, kr_builder_lattice_point(builder, end[0], end[1]),
-                        kr_builder_lattice_point(builder, end[2], end[3]));
-}
-
-void kr_builder_outline(struct kr_builder *builder, const unsigned char *is_gone) {
-    const struct kr_lattice *lattice = &builder->lattice;
-    const size_t right = lattice->columns, top = lattice->rows;
-    for (size_t j = 0; j < top; j++)
-        outline_edge(builder, is_gone, kr_lattice_cell(lattice, 0, j), (size_t[]){0, j + 1, 0, j});
-    kr_builder_group_edges(builder, "left");
-    for (size_t j = 0; j < top; j++)
-        outline_edge(builder, is_gone, kr_lattice_cell(lattice, right - 1, j),
-                     (size_t[]){right, j, right, j + 1});
-    kr_builder_group_edges(builder, "right");
-    for (size_t i = 0; i < right; i++)
-        outline_edge(builder, is_gone, kr_lattice_cell(lattice, i, 0), (size_t[]){i, 0, i + 1, 0});
-    kr_builder_group_edges(builder, "bottom");
-    for (size_t i = 0; i < right; i++)
-        outline_edge(builder, is_gone, kr_lattice_cell(lattice, i, top - 1),
-                     (size_t[]){i + 1, top, i, top});
-    kr_builder_group_edges(builder, "top");
-}
-
 struct kr_mesh *kr_builder_end(struct kr_builder *builder) {
     struct kr_mesh *mesh = builder->mesh;
     add_group(builder, "plate", 2, 0, mesh->n_cells);

@@ -39,12 +39,6 @@ void kr_builder_edge(struct kr_builder *builder, size_t from, size_t to);
 /** Name the edges added since the last call. The name is copied. */
 void kr_builder_group_edges(struct kr_builder *builder, const char *name);
 
-/** Edges and groups `left`, `right`, `bottom`, `top` along the lattice's outline.
- *
- *  in  is_gone  NULL, or (lattice cells) not 0 where there is no cell: its sides are left out
- */
-void kr_builder_outline(struct kr_builder *builder, const unsigned char *is_gone);
-
 /** Number the cells, group them all as `plate`, check the whole structure and hand over the mesh.
  */
 struct kr_mesh *kr_builder_end(struct kr_builder *builder);

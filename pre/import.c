@@ -9,6 +9,7 @@
 #include "convert.h"
 #include "foreign.h"
 #include "nodes_dat.h"
+#include "pieces.h"
 #include "points.h"
 #include "repair.h"
 #include "vtu.h"
@@ -64,6 +65,7 @@ static struct kr_nodes *import_points(const struct kr_import *import) {
 
 static struct kr_nodes *import_mesh(const struct kr_import *import, struct kr_mesh **mesh) {
     *mesh = kr_mesh_read(import->path, import->folder, import->spacing);
+    kr_pieces_join(*mesh, import->path);
     for (size_t k = 0; k < 3 * (*mesh)->n_points; k++)
         (*mesh)->point[k] *= import->unit;
     kr_mesh_repair(*mesh, import->path, import->repair);

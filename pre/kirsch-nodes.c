@@ -10,9 +10,12 @@
 #include "convert.h"
 #include "import.h"
 #include "mesh.h"
+#include "partition.h"
 #include "surface.h"
+#include "weight.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const char usage[] =
@@ -32,13 +35,14 @@ static const char usage[] =
     "  --unit mm            the unit of length of MESH; m if left out\n"
     "  --thickness '1 mm'   of plane points with volumes, and for the volumes of --write\n"
     "  --repair             drop or turn cells that are faulty, and say so\n"
-    "  --write FORMAT,...   also write peridigm, exodus, vtu, csv, dat\n";
+    "  --partition N        also divide the nodes into N parts with about as many bonds each (METIS)\n"
+    "  --write FORMAT,...   also write peridigm, exodus, vtu, csv, dat";
 
 /* What the command line says beyond what every program takes. */
 struct wish {
     const char *write;
     double unit, thickness; /* m */
-    int repair;
+    int repair, parts; /* parts 0: no partition */
     size_t n_files;
     const char **file; /* (n_files) the mesh, then its sets */
 };
@@ -81,6 +85,14 @@ static void check_formats(const char *formats) {
     kr_free(copy);
 }
 
+static int parts_of(const char *text) {
+    char *end;
+    long parts = strtol(text, &end, 10);
+    if (!*text || *end || parts < 1 || parts > 1000000)
+        kr_stop(KR_EXIT_INPUT, "found '--partition %s'; expected a number of parts, 1 or more", text);
+    return (int)parts;
+}
+
 static struct wish read_wish(size_t n, const char **word) {
     struct wish wish = {.unit = 1, .file = KR_NEW(const char *, n)};
     const char *value;
@@ -91,6 +103,8 @@ static struct wish read_wish(size_t n, const char **word) {
             wish.thickness = length_of("--thickness", value);
         else if ((value = value_of("--write", word, n, &k)))
             check_formats(wish.write = value);
+        else if ((value = value_of("--partition", word, n, &k)))
+            wish.parts = parts_of(value);
         else if (!strcmp(word[k], "--repair"))
             wish.repair = 1;
         else if (word[k][0] == '-')
@@ -112,9 +126,9 @@ static struct kr_import import_of(const struct wish *wish, const char *folder, d
                               .set = wish->file + 1};
 }
 
-/* The nodes of the mesh named on the command line, or of the case's own. */
+/* The nodes of the mesh named on the command line, or of the case's own; settles what hangs on them. */
 static struct kr_nodes *read_nodes(const struct wish *wish, struct kr_deck *deck,
-                                   const struct kr_case *c) {
+                                   struct kr_case *c) {
     struct kr_import import = import_of(wish, c->folder, c->spacing);
     char *own = kr_case_file(c, "plate.msh");
     struct kr_mesh *mesh;
@@ -123,11 +137,7 @@ static struct kr_nodes *read_nodes(const struct wish *wish, struct kr_deck *deck
     if (nodes->dim == 3 && c->model <= KR_PLANE_STRAIN)
         kr_deck_fault(deck, &c->model, "%s is a mesh of solids, and this model is for plates",
                       import.path);
-    if (!nodes->n_points && (c->partial_volume == KR_PARTIAL_VOLUME_EXACT ||
-                             c->partial_volume == KR_PARTIAL_VOLUME_EXACT_CENTROID))
-        kr_deck_fault(deck, &c->partial_volume,
-                      "exact shares need the cells of a mesh, and %s has none; take hhb",
-                      import.path);
+    c->partial_volume = kr_weights_choose(deck, c, nodes);
     kr_convert_sets(deck, c, mesh, nodes);
     kr_boundary_check(deck, c, nodes);
     kr_deck_finish(deck);
@@ -178,6 +188,16 @@ static void correct(const struct kr_case *c, struct kr_nodes *nodes) {
            kr_progress_clock() - begun);
 }
 
+static void divide(const struct kr_case *c, struct kr_nodes *nodes, int parts) {
+    if ((size_t)parts > nodes->n)
+        kr_stop(KR_EXIT_INPUT, "found --partition %d; there are only %zu nodes", parts, nodes->n);
+    struct kr_partition_report r = kr_partition_make(nodes, c->horizon, c->partial_volume, parts);
+    kr_say("  %d parts of %zu to %zu nodes: %zu of %zu bonds between parts (%.2f %%), the heaviest "
+           "part %.3f of the mean; %.2f s",
+           parts, r.least, r.most, r.cut, r.bonds, 100 * (double)r.cut / (double)r.bonds, r.balance,
+           r.seconds);
+}
+
 static int make_nodes(int argc, char **argv) {
     struct kr_case_arguments arguments;
     struct kr_case c;
@@ -187,6 +207,8 @@ static int make_nodes(int argc, char **argv) {
     struct kr_nodes *nodes = read_nodes(&wish, deck, &c);
     report_nodes(nodes);
     correct(&c, nodes);
+    if (wish.parts)
+        divide(&c, nodes, wish.parts);
 
     char *path = kr_case_file(&c, "plate.nodes.h5"), *stem = kr_case_file(&c, "plate");
     char *deck_text = kr_deck_resolved(deck, NULL);

@@ -70,9 +70,11 @@ static int throw_one(const struct kr_case *c, uint64_t *state, struct pore *pore
  * kept. */
 static size_t take_holes(const struct kr_case *c, struct pore *pore) {
     const struct kr_case_hole *hole = c->holes.item;
-    for (size_t k = 0; k < c->holes.count; k++)
-        pore[k] = (struct pore){nanometres(hole[k].centre[0]), nanometres(hole[k].centre[1]),
-                                nanometres(hole[k].radius) + 1};
+    for (size_t k = 0; k < c->holes.count; k++) {
+        double centre[2], radius = kr_case_hole_reach(&hole[k], centre);
+        pore[k] =
+            (struct pore){nanometres(centre[0]), nanometres(centre[1]), nanometres(radius) + 1};
+    }
     return c->holes.count;
 }
 

@@ -62,12 +62,14 @@ static void print_cells(const char *which, const struct kr_quality *q) {
 void kr_quality_print(const struct kr_mesh *mesh, const struct kr_plate *plate,
                       const struct kr_plate_report *report) {
     double dx = plate->spacing;
+    char grid[32];
+    kr_case_word(KR_GRID_WORDS, (int)plate->grid, grid);
     struct kr_quality all = kr_quality_of(mesh, 0, mesh->n_cells, dx);
     struct kr_quality lattice = kr_quality_of(mesh, 0, report->n_lattice, dx);
     struct kr_quality boxes = kr_quality_of(mesh, report->n_lattice, mesh->n_cells, dx);
     kr_say("plate %.9g mm by %.9g mm, %zu holes, spacing %.9g mm, %s grid", 1e3 * plate->width,
            1e3 * plate->height, plate->n_holes, 1e3 * dx,
-           plate->grid == KR_GRID_UNIFORM ? "uniform" : "near-boundary");
+           grid);
     kr_say("  %zu points, %zu boundary edges in %zu named groups, %.2f s", mesh->n_points,
            mesh->n_edges, mesh->n_groups, report->seconds);
     kr_say("  %-12s %9s %9s   area over spacing squared", "", "", "");
@@ -76,8 +78,8 @@ void kr_quality_print(const struct kr_mesh *mesh, const struct kr_plate *plate,
     print_cells("all", &all);
     print_cells("lattice", &lattice);
     print_cells("boxes", &boxes);
-    kr_say("  area %.9g mm^2; off by %.1e from the plate less its holes as meshed, by %.1e from "
-           "the plate less circles",
+    kr_say("  area %.9g mm^2; off by %.1e from the polygons that the cells fill, by %.1e from "
+           "the exact curves",
            1e6 * all.area, all.area / report->polygonal_area - 1,
            all.area / report->exact_area - 1);
     for (size_t r = 0; r < report->n_regions; r++)

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "body.h"
 #include "weight.h"
 
@@ -63,6 +64,7 @@ struct problem {
     int count;
     double strain[2][2];
     double *diagonal; /* of the system: about V_i W_i(1)/2 */
+    struct kr_progress progress;
 };
 
 /* out_i = V_i W_i for the factors lambda, mean over the deformations. Linear in lambda. */
@@ -120,6 +122,8 @@ static void solve(struct problem *p, double *lambda, struct kr_surface_report *r
     }
     while ((report->residual = worst_of(p, residual, report->reference)) > TOLERANCE &&
            isfinite(report->residual) && report->iterations < MOST_ITERATIONS) {
+        kr_progress_note(&p->progress, "iteration %d, off by %.1e", report->iterations,
+                         report->residual);
         for (size_t i = 0; i < n; i++)
             scaled[i] = residual[i] / p->diagonal[i];
         double now = dot(n, residual, scaled);
@@ -153,6 +157,8 @@ static void repeat(struct problem *p, double *lambda, struct kr_surface_report *
                 fmax(report->residual, fabs(image[i] / (volume[i] * report->reference) - 1));
         if (!(report->residual > TOLERANCE) || report->iterations == MOST_ITERATIONS)
             break;
+        kr_progress_note(&p->progress, "iteration %d, off by %.1e", report->iterations,
+                         report->residual);
         for (size_t i = 0; i < n; i++)
             lambda[i] *= volume[i] * report->reference / image[i];
     }
@@ -197,11 +203,14 @@ struct kr_surface_report kr_surface_correct(struct kr_nodes *nodes,
     struct kr_material whole = *material;
     whole.critical_stretch = INFINITY;
     kr_surface_clear(nodes);
+    struct kr_progress begun = kr_progress_begin("surface factors", 0, 0);
     struct kr_bonds *bonds = kr_bonds_create(nodes, &whole, partial_volume);
     struct problem problem = {.body = kr_body_create(bonds), .diagonal = KR_NEW(double, nodes->n)};
+    problem.progress = begun;
     problem.count = strains_of(deformation, problem.strain);
     (partial_volume == KR_PARTIAL_VOLUME_HHB_ONE_SIDED ? repeat : solve)(&problem, nodes->factor,
                                                                          &report);
+    kr_progress_wipe(&problem.progress);
     if (!(report.residual <= TOLERANCE))
         kr_stop(KR_EXIT_NUMBERS,
                 "the surface factors did not converge: off by %.2g after %d iterations; look for "

@@ -2,14 +2,16 @@
  *
  * Surface corrections that need one sum over each family and no iteration; theory.md (11a), (11b).
  *
- *   volume         lambda_i = V0/V_i, V_i what there is of the family, the node's own cell included;
- *                  a bond takes the harmonic mean, 2 V0/(V_i + V_j)             (Bobaru et al. 2016)
- *   force density  lambda_i along each axis = S0/S_i, S_i the sum of what the bonds pull along that axis
+ *   volume         lambda_i = V0/V_i, V_i what there is of the family, the node's own cell
+ * included; a bond takes the harmonic mean, 2 V0/(V_i + V_j)             (Bobaru et al. 2016) force
+ * density  lambda_i along each axis = S0/S_i, S_i the sum of what the bonds pull along that axis
  *                  under uniaxial strain along it; a bond takes the ellipse over the means of both
- *                  ends                                          (Oterkus 2010; Madenci, Oterkus 2014)
+ *                  ends                                          (Oterkus 2010; Madenci, Oterkus
+ * 2014)
  *
  * The literature sums the force density over one half of the family, the fuller one; S_i sums both
- * halves as absolute values, which is the same where both are full and half of it at a straight edge.
+ * halves as absolute values, which is the same where both are full and half of it at a straight
+ * edge.
  */
 #include "surface.h"
 
@@ -55,8 +57,8 @@ static void sum_pulls(const struct kr_bonds *b, size_t slice, double *pull) {
     size_t dim = (size_t)b->dim;
     while (kr_bonds_next(b, &walk, &bond))
         for (size_t d = 0; d < dim; d++)
-            pull[bond.i * dim + d] += bond.weight * b->volume[bond.j] *
-                                      pull_along(&b->material, b->dim, bond.xi, (int)d);
+            pull[bond.i * dim + d] +=
+                bond.weight * b->volume[bond.j] * pull_along(&b->material, b->dim, bond.xi, (int)d);
 }
 
 /* The factors along the axes of one node from its sums; their mean is its factor. */
@@ -85,8 +87,8 @@ static struct kr_bonds *plain_bonds(struct kr_nodes *nodes, const struct kr_mate
 
 struct kr_surface_report kr_surface_volume(struct kr_nodes *nodes,
                                            const struct kr_material *material, int partial_volume) {
-    struct kr_surface_report report = {
-        .reference = kr_surface_full_volume(nodes->dim, material->horizon)};
+    struct kr_surface_report report = {.reference =
+                                           kr_surface_full_volume(nodes->dim, material->horizon)};
     struct kr_bonds *bonds = plain_bonds(nodes, material, partial_volume);
     for (size_t i = 0; i < nodes->n; i++)
         nodes->factor[i] = report.reference / (bonds->family_volume[i] + nodes->volume[i]);
@@ -99,8 +101,7 @@ struct kr_surface_report kr_surface_volume(struct kr_nodes *nodes,
 struct kr_surface_report kr_surface_force_density(struct kr_nodes *nodes,
                                                   const struct kr_material *material,
                                                   int partial_volume) {
-    struct kr_surface_report report = {
-        .reference = kr_surface_full_pull(material, partial_volume)};
+    struct kr_surface_report report = {.reference = kr_surface_full_pull(material, partial_volume)};
     struct kr_bonds *bonds = plain_bonds(nodes, material, partial_volume);
     kr_assert(nodes->dim == 2); /* as the reference */
     nodes->axis_factor = KR_NEW(double, nodes->n * 2);

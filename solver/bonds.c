@@ -35,6 +35,7 @@ struct builder {
     double size_of_lattice, origin[3], cell_volume;
     int reach_in_cells;
     unsigned char *on_lattice; /* (n) */
+    int32_t *place; /* (n x dim) column, row, layer of those on the lattice */
 };
 
 /* ---- arrays ---- */
@@ -102,6 +103,7 @@ static void find_lattice(struct builder *w) {
     w->size_of_lattice = nodes->spacing;
     w->cell_volume = pow(nodes->spacing, nodes->dim);
     w->on_lattice = KR_NEW(unsigned char, nodes->n);
+    w->place = KR_NEW(int32_t, nodes->n *dim);
     for (size_t i = 0; i < nodes->n; i++) {
         if (fabs(nodes->volume[i] / w->cell_volume - 1) > same)
             continue;
@@ -111,7 +113,8 @@ static void find_lattice(struct builder *w) {
         for (size_t d = 0; d < dim; d++) {
             double cells = (nodes->position[i * dim + d] - nodes->position[origin * dim + d]) /
                            nodes->spacing;
-            fits &= fabs(cells - round(cells)) < same * (1 + fabs(cells));
+            fits &= fabs(cells - round(cells)) < same * (1 + fabs(cells)) && fabs(cells) < 1e9;
+            w->place[i * dim + d] = fits ? (int32_t)lround(cells) : 0;
         }
         fits = fits && kr_weights_is_square(w->weights, i, nodes->spacing);
         w->on_lattice[i] = (unsigned char)fits;
@@ -124,11 +127,11 @@ static int side_of(const struct builder *w) {
 
 /* Table place of the bond from lattice node i to lattice node j. */
 static int kind_of(const struct builder *w, size_t i, size_t j) {
-    int place = 0, dim = w->nodes->dim;
-    for (int d = dim - 1; d >= 0; d--) {
-        double cells = (w->bonds->x[d][j] - w->bonds->x[d][i]) / w->size_of_lattice;
-        place = place * side_of(w) + (int)lround(cells) + w->reach_in_cells;
-    }
+    int place = 0;
+    size_t dim = (size_t)w->nodes->dim;
+    for (size_t d = dim; d-- > 0;)
+        place = place * side_of(w) + w->place[j * dim + d] - w->place[i * dim + d] +
+                w->reach_in_cells;
     return place;
 }
 
@@ -373,6 +376,7 @@ struct kr_bonds *kr_bonds_create(const struct kr_nodes *nodes, const struct kr_m
     kr_search_free(w.search);
     kr_weights_free(w.weights);
     kr_free(w.on_lattice);
+    kr_free(w.place);
     count_living(b);
     make_blocks(b);
     return b;

@@ -17,10 +17,43 @@
 #define LIST_OF(what, type_, keys_)                                                                \
     .type = (what), .item_size = sizeof(type_), .keys = (keys_), .fallback = ""
 
+#define HOLE_AT(field) offsetof(struct kr_case_hole, field)
+#define LENGTH_OF(where) NUMBER_OF((where), "m"), .fallback = ""
 static const struct kr_deck_key hole_keys[] = {
-    {"centre", VECTOR_OF(offsetof(struct kr_case_hole, centre)),
-     .text = "Centre; it may lie outside the plate, for a notch in its edge."},
-    {"radius", NUMBER_OF(offsetof(struct kr_case_hole, radius), "m"), POSITIVE, .text = "Radius."},
+    {"centre", VECTOR_OF(HOLE_AT(centre)), .fallback = "",
+     .text = "Centre; it may lie outside the plate, for a notch in its edge. A polygon needs none: "
+             "(0, 0) then."},
+    {"radius", LENGTH_OF(HOLE_AT(radius)), POSITIVE, .text = "Radius of a circle."},
+    {"shape", KR_DECK_CHOICE, HOLE_AT(shape), .words = KR_HOLE_WORDS, .fallback = "circle",
+     .text = "Holes may overlap each other, and where they cut the outline they are notches."},
+    {"radii", VECTOR_OF(HOLE_AT(radii)), .fallback = "", POSITIVE,
+     .text = "Half axes of an ellipse, along x and y before it is turned."},
+    {"size", VECTOR_OF(HOLE_AT(size)), .fallback = "", POSITIVE,
+     .text = "Sides of a rectangle, along x and y before it is turned."},
+    {"length", LENGTH_OF(HOLE_AT(length)), POSITIVE,
+     .text = "Length of a slot over its round ends."},
+    {"width", LENGTH_OF(HOLE_AT(width)), POSITIVE, .text = "Width of a slot."},
+    {"points", KR_DECK_NUMBERS, HOLE_AT(points), .unit = "m", .count = 2, .fallback = "",
+     .text = "Corners of a polygon in turn, as seen from the centre."},
+    {"corner_radius", LENGTH_OF(HOLE_AT(corner_radius)), NOT_NEGATIVE,
+     .text = "Radius that rounds the corners of a rectangle or polygon; not given: sharp."},
+    {"angle", NUMBER_OF(HOLE_AT(angle), "rad"), .fallback = "",
+     .text = "Turns the hole about its centre, counter-clockwise."},
+    {NULL},
+};
+
+#define OUTLINE_AT(field) offsetof(struct kr_case_outline, field)
+static const struct kr_deck_key outline_keys[] = {
+    {"shape", KR_DECK_CHOICE, OUTLINE_AT(shape), .words = KR_OUTLINE_WORDS,
+     .fallback = "rectangle", .text = "`rectangle`: all of width by height."},
+    {"centre", VECTOR_OF(OUTLINE_AT(centre)), .fallback = "",
+     .text = "Centre of a disc or ring; not given: the middle of width by height."},
+    {"radius", LENGTH_OF(OUTLINE_AT(radius)), POSITIVE, .text = "Outer radius of a disc or ring."},
+    {"inner_radius", LENGTH_OF(OUTLINE_AT(inner_radius)), POSITIVE, .text = "Of a ring."},
+    {"points", KR_DECK_NUMBERS, OUTLINE_AT(points), .unit = "m", .count = 2, .fallback = "",
+     .text = "Corners of a polygon in turn, within width by height."},
+    {"corner_radius", LENGTH_OF(OUTLINE_AT(corner_radius)), NOT_NEGATIVE,
+     .text = "Radius that rounds the corners of a polygon; not given: sharp."},
     {NULL},
 };
 
@@ -44,10 +77,13 @@ static const struct kr_deck_key pores_keys[] = {
 
 static const struct kr_deck_key geometry_keys[] = {
     {"width", NUMBER_OF(AT(width), "m"), POSITIVE,
-     .text = "Width of the plate (x). Its lower left corner is the origin."},
+     .text = "Width of the plate (x), or of the frame around its outline. Its lower left corner is "
+             "the origin."},
     {"height", NUMBER_OF(AT(height), "m"), POSITIVE, .text = "Height of the plate (y)."},
+    {"outline", KR_DECK_SECTION, AT(outline), .keys = outline_keys,
+     .text = "Shape of the plate where it is no rectangle."},
     {"holes", LIST_OF(KR_DECK_LIST, struct kr_case_hole, hole_keys), .offset = AT(holes),
-     .text = "Round holes at given places."},
+     .text = "Holes at given places."},
     {"pores", KR_DECK_SECTION, AT(pores), .keys = pores_keys,
      .text = "Round holes at random places."},
     {NULL},
@@ -56,12 +92,17 @@ static const struct kr_deck_key geometry_keys[] = {
 static const struct kr_deck_key mesh_keys[] = {
     {"grid", KR_DECK_CHOICE, AT(grid), .words = KR_GRID_WORDS,
      .fallback = "near-boundary",
-     .text = "`near-boundary`: a square lattice, cut out around each hole and filled there with "
-             "cells that follow the rim; `uniform`: the lattice alone, with jagged holes."},
+     .text = "`near-boundary`: a square lattice, cut out around each hole and filled there by gmsh "
+             "with cells that follow the rim; `uniform`: the lattice alone, with jagged holes; "
+             "`free`: gmsh everywhere; `voronoi`: the lattice, near edges Voronoi cells that the "
+             "edge cuts ([grids.md](grids.md))."},
     {"spacing", NUMBER_OF(AT(spacing), "m"), POSITIVE, .text = "Spacing of the lattice."},
     {"padding", NUMBER_OF(AT(padding), "m"), .fallback = "", NOT_NEGATIVE,
      .text = "From the rim of a hole to the edge of the box that is meshed around it; not given "
              "or 0: the horizon."},
+    {"lloyd_steps", KR_DECK_INTEGER, AT(lloyd_steps), .fallback = "5", .least = 0, .most = 100,
+     .text = "`voronoi`: how often the nodes within a padding of an edge move to the centroids of "
+             "their cells; each step makes the areas more even and the cells less square."},
     {NULL},
 };
 
@@ -80,11 +121,13 @@ static const struct kr_deck_key set_keys[] = {
 static const struct kr_deck_key nodes_keys[] = {
     {"horizon", NUMBER_OF(AT(horizon), "m"), POSITIVE,
      .text = "Reach of the bonds; 3 to 6 spacings, at least 2."},
-    {"partial_volume", KR_DECK_CHOICE, AT(partial_volume), .words = KR_PARTIAL_VOLUME_WORDS, .fallback = "hhb",
-     .text = "Share of a cell that counts where the horizon cuts it: `hhb`, linear over the "
-             "half width of the cell, the mean of both ends of a bond; `none`: all or nothing; "
-             "`exact`: the area of the cell inside the circle, the mean of both ends; "
-             "`exact-centroid`: the same, the bond reaching to the centroid of that part; "
+    {"partial_volume", KR_DECK_CHOICE, AT(partial_volume), .words = KR_PARTIAL_VOLUME_WORDS,
+     .fallback = "exact-centroid",
+     .text = "Share of a cell that counts where the horizon cuts it: `exact`, the area of the cell "
+             "inside the circle, the mean of both ends of a bond; `exact-centroid`: the same, the bond "
+             "reaching to the centroid of that part; `hhb`: linear over the width of the cell, the "
+             "mean of both ends, and the default of nodes that came without cells; `none`: all or "
+             "nothing; "
              "`hhb-one-sided`: of the far cell alone, as published; on unequal cells momentum then "
              "drifts, so it is for comparison only."},
     {"surface_correction", KR_DECK_CHOICE, AT(surface_correction), .words = KR_SURFACE_WORDS,
@@ -197,6 +240,10 @@ static const struct kr_deck_key track_keys[] = {
 
 const struct kr_deck_key kr_case_keys[] = {
     {"title", KR_DECK_TEXT, AT(title), .fallback = "", .text = "A line for people."},
+    {"preset", KR_DECK_CHOICE, AT(preset), .words = KR_PRESET_WORDS, .fallback = "none",
+     .text = "Choices in one word, for keys that the deck does not give itself. `plates-paper`: as in "
+             "the plates paper, `grid: near-boundary`, `partial_volume: hhb-one-sided`, "
+             "`surface_correction: energy`, `surface_deformation: uniaxial-y`."},
     {"no_fail", KR_DECK_TEXTS, AT(no_fail), .fallback = "",
      .text = "Names of sets whose bonds never break, such as those that carry the load."},
     {"geometry", KR_DECK_SECTION, .keys = geometry_keys, .text = "The plate and its holes."},

@@ -9,12 +9,24 @@
 #include "base/deck.h"
 
 /* Choices of the deck and their words, in one order. */
-#define KR_GRID_WORDS "near-boundary uniform"
+#define KR_GRID_WORDS "near-boundary uniform free voronoi"
+#define KR_HOLE_WORDS "circle ellipse rectangle polygon slot"
+#define KR_OUTLINE_WORDS "rectangle polygon disc ring"
 #define KR_PARTIAL_VOLUME_WORDS "hhb none hhb-one-sided exact exact-centroid"
 #define KR_SURFACE_WORDS "energy none volume force-density"
 #define KR_DEFORMATION_WORDS "uniaxial-y uniaxial-x isotropic mean-over-axes"
 #define KR_MODEL_WORDS "plane-stress plane-strain"
-enum kr_grid { KR_GRID_NEAR_BOUNDARY, KR_GRID_UNIFORM };
+#define KR_PRESET_WORDS "none plates-paper"
+enum kr_preset { KR_PRESET_NONE, KR_PRESET_PLATES_PAPER };
+enum kr_grid { KR_GRID_NEAR_BOUNDARY, KR_GRID_UNIFORM, KR_GRID_FREE, KR_GRID_VORONOI };
+enum kr_hole_shape {
+    KR_HOLE_CIRCLE,
+    KR_HOLE_ELLIPSE,
+    KR_HOLE_RECTANGLE,
+    KR_HOLE_POLYGON,
+    KR_HOLE_SLOT
+};
+enum kr_outline { KR_OUTLINE_RECTANGLE, KR_OUTLINE_POLYGON, KR_OUTLINE_DISC, KR_OUTLINE_RING };
 enum kr_partial_volume {
     KR_PARTIAL_VOLUME_HHB,
     KR_PARTIAL_VOLUME_NONE,
@@ -31,9 +43,26 @@ enum kr_surface_correction {
 enum kr_deformation { KR_UNIAXIAL_Y, KR_UNIAXIAL_X, KR_ISOTROPIC, KR_MEAN_OVER_AXES };
 enum kr_model { KR_PLANE_STRESS, KR_PLANE_STRAIN };
 
+/* A hole; what follows the radius is for other shapes than the circle. */
 struct kr_case_hole {
     double centre[2]; /* m */
     double radius;    /* m */
+    int shape;        /* enum kr_hole_shape */
+    double radii[2];  /* m: half axes of an ellipse */
+    double size[2];   /* m: of a rectangle */
+    double length, width; /* m: of a slot, over all */
+    struct kr_deck_list points; /* double, m: x and y of a polygon's corners, from the centre */
+    double corner_radius; /* m: of a rectangle or polygon */
+    double angle;         /* rad: turned about the centre, counter-clockwise */
+};
+
+/* The outline where it is not the whole rectangle of width by height. */
+struct kr_case_outline {
+    int shape;                  /* enum kr_outline */
+    double centre[2], radius;   /* m: disc and ring */
+    double inner_radius;        /* m: ring */
+    struct kr_deck_list points; /* double, m: polygon */
+    double corner_radius;       /* m: polygon */
 };
 
 struct kr_case_pores {
@@ -70,9 +99,11 @@ struct kr_case_box {
 
 struct kr_case {
     const char *title;
+    int preset; /* enum kr_preset */
 
     /* geometry */
     double width, height; /* m: plate with its lower left corner at (0, 0) */
+    struct kr_case_outline outline;
     struct kr_deck_list holes;  /* struct kr_case_hole */
     struct kr_case_pores pores; /* count 0: none */
 
@@ -80,6 +111,7 @@ struct kr_case {
     int grid; /* enum kr_grid */
     double spacing;    /* m */
     double padding;    /* m: from a hole to the rim of its box; 0: the horizon */
+    int64_t lloyd_steps; /* voronoi */
 
     /* nodes */
     double horizon; /* m */
@@ -136,9 +168,16 @@ struct kr_case_arguments {
  *  first argument that ends in .yaml or .yml, else the first that is no option. */
 void kr_case_arguments(int argc, char **argv, const char *usage, struct kr_case_arguments *out);
 
+/** Fill in what the case's preset chooses and the deck does not give itself. `c` must be the struct
+ *  that the deck was read into. */
+void kr_case_preset(const struct kr_deck *deck, struct kr_case *c);
+
 /** Check what no single key can tell: horizon against spacing, loads against sets. Faults are
  *  collected in the deck. `c` must be the struct that the deck was read into. */
 void kr_case_check(struct kr_deck *deck, const struct kr_case *c);
+
+/** The part of it that looks at outline, holes and pores. */
+void kr_case_check_geometry(struct kr_deck *deck, const struct kr_case *c);
 
 /** Warn of what is doubtful in a case without faults. */
 void kr_case_warn(struct kr_deck *deck, const struct kr_case *c);
@@ -152,6 +191,9 @@ void kr_case_word(const char *words, int k, char word[32]);
 
 /** Path of a file in the case's folder, owned by the caller: kr_case_file(c, "plate.msh"). */
 char *kr_case_file(const struct kr_case *c, const char *name);
+
+/** Radius [m] of a circle around a hole, and that circle's centre. */
+double kr_case_hole_reach(const struct kr_case_hole *hole, double centre[2]);
 
 /** All holes: those of the deck and, where `pores` is given, those that kirsch-pores left in
  *  pores.txt of the folder. Owned by the caller (kr_free). Stops if pores.txt is missing or bad. */

@@ -43,51 +43,6 @@ static void check_mesh(struct kr_deck *deck, const struct kr_case *c) {
                       c->horizon, narrow);
 }
 
-/* Distance from the plate; 0 within it. */
-static double beyond_plate(const struct kr_case *c, const double *p) {
-    double x = fmax(fmax(-p[0], p[0] - c->width), 0), y = fmax(fmax(-p[1], p[1] - c->height), 0);
-    return hypot(x, y);
-}
-
-static void check_holes(struct kr_deck *deck, const struct kr_case *c) {
-    const struct kr_case_hole *holes = c->holes.item;
-    for (size_t i = 0; i < c->holes.count && c->width > 0 && c->height > 0; i++) {
-        const struct kr_case_hole *hole = &holes[i];
-        if (!(hole->radius > 0))
-            continue;
-        if (2 * hole->radius > fmax(c->width, c->height))
-            kr_deck_fault(deck, &hole->radius,
-                          "the hole's diameter of %g m is more than the plate's longer side",
-                          2 * hole->radius);
-        else if (beyond_plate(c, hole->centre) >= hole->radius)
-            kr_deck_fault(deck, hole->centre,
-                          "the hole lies outside the plate of %g m x %g m, %g m from it", c->width,
-                          c->height, beyond_plate(c, hole->centre) - hole->radius);
-    }
-}
-
-static void check_pores(struct kr_deck *deck, const struct kr_case *c) {
-    const struct kr_case_pores *pores = &c->pores;
-    double least = pores->radius[0], most = pores->radius[1];
-    if (!pores->count)
-        return;
-    if (!kr_deck_given(deck, pores->radius)) {
-        kr_deck_fault(deck, pores->radius,
-                      "missing; expected least and largest radius, such as [0.2 mm, 0.5 mm]");
-        return;
-    }
-    if (least > most)
-        kr_deck_fault(deck, pores->radius, "the least, %g m, is more than the largest, %g m", least,
-                      most);
-    else if (2 * most > fmin(c->width, c->height) && c->width > 0 && c->height > 0)
-        kr_deck_fault(deck, &pores->radius[1],
-                      "a pore of %g m in diameter does not fit into the plate", 2 * most);
-    else if ((double)pores->count * M_PI * least * least > c->width * c->height)
-        kr_deck_fault(deck, &pores->count,
-                      "%lld pores of %g m in radius have more area than the plate",
-                      (long long)pores->count, least);
-}
-
 /* Letters, digits, _ and -: a name becomes a dataset of HDF5 and a column of CSV. */
 static int is_name(const char *text) {
     const char *good = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
@@ -212,8 +167,7 @@ static void check_law(struct kr_deck *deck, const struct kr_case *c) {
 void kr_case_check(struct kr_deck *deck, const struct kr_case *c) {
     const struct kr_case_box *boxes = c->boxes.item;
     check_mesh(deck, c);
-    check_holes(deck, c);
-    check_pores(deck, c);
+    kr_case_check_geometry(deck, c);
     check_sets_and_loads(deck, c);
     check_cracks(deck, c);
     check_times(deck, c);

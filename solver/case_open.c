@@ -158,6 +158,7 @@ struct kr_deck *kr_case_open(const struct kr_case_arguments *arguments, struct k
     struct kr_deck *deck =
         kr_deck_open(arguments->deck, arguments->variant, arguments->n_set, arguments->set);
     kr_deck_read(deck, kr_case_keys, out);
+    kr_case_preset(deck, out);
     kr_case_check(deck, out);
     kr_deck_finish(deck);
     kr_case_warn(deck, out);
@@ -222,7 +223,7 @@ static struct kr_case_hole *read_pores(const struct kr_case *c, const char *path
         kr_stop(KR_EXIT_INPUT, "%s cannot be read: %s; kirsch-pores makes it", path,
                 strerror(errno));
     for (size_t number = 1; getline(&line, &line_room, file) >= 0; number++) {
-        struct kr_case_hole hole;
+        struct kr_case_hole hole = {.radius = 0};
         int found = read_hole(line, &hole);
         if (found < 0)
             kr_stop(KR_EXIT_INPUT, "%s:%zu: found '%.*s', expected 'x y radius' in metres", path,

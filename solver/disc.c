@@ -5,7 +5,8 @@
  * a triangle, where it runs outside the sector between the two directions:
  *
  *    triangle  A = (p x q)/2          M = A (p + q)/3
- *    sector    A = r^2 theta/2        M = r^3/3 (p^/|p| - q^/|q|)        v^ = v turned by -90 degrees
+ *    sector    A = r^2 theta/2        M = r^3/3 (p^/|p| - q^/|q|)        v^ = v turned by -90
+ * degrees
  *
  *    theta  angle from p to q, -pi to pi        x  cross product
  */
@@ -35,8 +36,8 @@ static void add_sector(const double p[2], const double q[2], double r, struct kr
     sum->moment[1] += cube * (p[0] / to_p - q[0] / to_q);
 }
 
-/* Where the line p + t (q - p) is inside the circle: between t[0] and t[1], cut to 0 .. 1. Returns 0
- * if nowhere. The roots of a t^2 + 2 b t + c = 0 without cancellation. */
+/* Where the line p + t (q - p) is inside the circle: between t[0] and t[1], cut to 0 .. 1. Returns
+ * 0 if nowhere. The roots of a t^2 + 2 b t + c = 0 without cancellation. */
 static int inside(const double p[2], const double q[2], double r, double t[2]) {
     double along[2] = {q[0] - p[0], q[1] - p[1]}, to_p = hypot(p[0], p[1]);
     double a = dot(along, along), b = dot(p, along), c = (to_p - r) * (to_p + r);

@@ -21,6 +21,17 @@ static int is_exact(int partial_volume) {
            partial_volume == KR_PARTIAL_VOLUME_EXACT_CENTROID;
 }
 
+int kr_weights_choose(struct kr_deck *deck, const struct kr_case *c, const struct kr_nodes *nodes) {
+    int have_cells = nodes->dim == 2 && nodes->n_points > 0;
+    if (have_cells || !is_exact(c->partial_volume))
+        return c->partial_volume;
+    if (kr_deck_given(deck, &c->partial_volume))
+        kr_deck_fault(deck, &c->partial_volume,
+                      "exact shares need the cells of a mesh in the plane, and these nodes have "
+                      "none; take hhb");
+    return KR_PARTIAL_VOLUME_HHB;
+}
+
 static size_t corners_of(const struct kr_nodes *nodes, size_t i) {
     return (size_t)(nodes->first[i + 1] - nodes->first[i]);
 }
@@ -104,9 +115,9 @@ static struct kr_disc_part part_of(const struct kr_weights *w, size_t i, size_t 
     return part;
 }
 
-/* The bond's weight from what each end sees of the other: the mean of both, (10a); with the centroids
- * of the parts, the mean moment over the bond's length, (10b). Sums and differences of two numbers:
- * the same bits from both ends. */
+/* The bond's weight from what each end sees of the other: the mean of both, (10a); with the
+ * centroids of the parts, the mean moment over the bond's length, (10b). Sums and differences of
+ * two numbers: the same bits from both ends. */
 static double weight_of(int partial_volume, const struct kr_disc_part *there,
                         const struct kr_disc_part *back, double distance) {
     double phi = 0.5 * (there->area + back->area);
@@ -153,7 +164,8 @@ double kr_weight_lattice(int partial_volume, int dim, const double *xi, double h
     return weight_of(partial_volume, &there, &back, distance);
 }
 
-/* The area is known to be spacing^2: if no corner is outside of the square, the cell is the square. */
+/* The area is known to be spacing^2: if no corner is outside of the square, the cell is the square.
+ */
 int kr_weights_is_square(const struct kr_weights *w, size_t i, double spacing) {
     if (!w->radius)
         return 1;

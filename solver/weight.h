@@ -19,8 +19,8 @@ static inline double kr_weight_hhb_one_sided(double distance, double horizon, do
 }
 
 /** The weight phi_ij that node i gives node j where it hangs on their sizes alone (none, hhb,
- *  hhb-one-sided), theory.md (10). 0: there is no bond. Of these only hhb-one-sided differs from the
- *  weight seen from j; the others have the same bits from both ends.
+ *  hhb-one-sided), theory.md (10). 0: there is no bond. Of these only hhb-one-sided differs from
+ * the weight seen from j; the others have the same bits from both ends.
  *
  *  in  partial_volume  enum kr_partial_volume
  *  in  distance, horizon, size_i, size_j  [m]
@@ -49,10 +49,15 @@ struct kr_weights {
     const struct kr_nodes *nodes; /* not owned */
     int partial_volume;
     double horizon;
-    double reach;   /* m: no bond is longer */
-    double *size;   /* (n) m: V^(1/dim) */
-    double *radius; /* (n) m: of the circle about the node that holds its cell; exact weights only */
+    double reach; /* m: no bond is longer */
+    double *size; /* (n) m: V^(1/dim) */
+    double
+        *radius; /* (n) m: of the circle about the node that holds its cell; exact weights only */
 };
+
+/** The partial volume of a case on these nodes. Exact shares need cells in the plane: where the deck
+ *  leaves the choice open, nodes without get hhb; where it asks for exact ones, that is a fault. */
+int kr_weights_choose(struct kr_deck *deck, const struct kr_case *c, const struct kr_nodes *nodes);
 
 /** Get ready to weigh. Stops (exit 2) where exact weights are asked of nodes without cells, or in
  *  3D. The nodes must outlive the weights. */
@@ -70,7 +75,8 @@ double kr_weights_share(const struct kr_weights *weights, size_t i, size_t j);
 double kr_weight_lattice(int partial_volume, int dim, const double *xi, double horizon,
                          double spacing);
 
-/** Whether node i has the square cell of the lattice about it, so that kr_weight_lattice is right. */
+/** Whether node i has the square cell of the lattice about it, so that kr_weight_lattice is right.
+ */
 int kr_weights_is_square(const struct kr_weights *weights, size_t i, double spacing);
 
 /** lambda_ij over (lambda_i + lambda_j)/2: 1 for factors of the energy method; theory.md (11). The

@@ -7,6 +7,7 @@
 #define KR_PLATES_H
 
 #include "body.h"
+#include "cell.h"
 #include "nodes.h"
 #include "surface.h"
 
@@ -62,6 +63,45 @@ static inline struct kr_nodes *kr_plate_porous(size_t columns, size_t rows, doub
         nodes->position[2 * kept + 1] = y + dy;
         nodes->volume[kept] = jitter > 0 ? share * spacing * spacing : spacing * spacing;
         nodes->tag[kept++] = (int64_t)i + 1;
+    }
+    nodes->n = kept;
+    return nodes;
+}
+
+/** Nodes of quadrilateral cells that leave no gaps: a lattice without the cells nearer than `radius` to
+ * its middle, whose corners are moved by up to `disorder` spacings a component where they are up to
+ * twice as far. Nodes at the centroids; in rows of the lattice. */
+static inline struct kr_nodes *kr_plate_cells(size_t columns, size_t rows, double spacing,
+                                              double radius, double disorder, uint64_t seed) {
+    struct kr_nodes *nodes = kr_nodes_create(2, columns * rows);
+    const double middle[2] = {0.5 * (double)columns * spacing, 0.5 * (double)rows * spacing};
+    size_t kept = 0, across = columns + 1;
+    nodes->spacing = spacing;
+    nodes->n_points = across * (rows + 1);
+    nodes->point = KR_NEW(double, 2 * nodes->n_points);
+    nodes->first = KR_NEW(int64_t, nodes->n + 1);
+    nodes->vertex = KR_NEW(int64_t, 4 * nodes->n);
+    for (size_t p = 0; p < nodes->n_points; p++) {
+        double x = (double)(p % across) * spacing, y = (double)(p / across) * spacing;
+        double away = hypot(x - middle[0], y - middle[1]);
+        double jitter = away < 2 * radius ? disorder * spacing : 0;
+        nodes->point[2 * p] = x + kr_random(&seed, -jitter, jitter);
+        nodes->point[2 * p + 1] = y + kr_random(&seed, -jitter, jitter);
+    }
+    for (size_t i = 0; i < columns * rows; i++) {
+        size_t low = i / columns * across + i % columns;
+        const size_t corner[4] = {low, low + 1, low + 1 + across, low + across};
+        double point[8];
+        for (size_t k = 0; k < 4; k++) {
+            memcpy(point + 2 * k, nodes->point + 2 * corner[k], 2 * sizeof *point);
+            nodes->vertex[4 * kept + k] = (int64_t)corner[k];
+        }
+        nodes->volume[kept] = kr_cell_polygon(4, point, nodes->position + 2 * kept);
+        const double *x = nodes->position + 2 * kept;
+        if (hypot(x[0] - middle[0], x[1] - middle[1]) >= radius) {
+            kept++;
+            nodes->first[kept] = 4 * (int64_t)kept;
+        }
     }
     nodes->n = kept;
     return nodes;

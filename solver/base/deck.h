@@ -27,7 +27,8 @@ enum kr_deck_type {
     KR_DECK_CHOICE,     /* int: place in the row's list of words */
     KR_DECK_TEXT,       /* const char *, owned by the deck */
     KR_DECK_VECTOR,     /* double[count]: `[50 mm, 25 mm]` */
-    KR_DECK_NUMBERS,    /* struct kr_deck_list of double: a list of any length */
+    KR_DECK_NUMBERS,    /* struct kr_deck_list of double: a list of any length; with `count`, of
+                           lists of so many: `[[0 mm, 0 mm], [2 mm, 1 mm]]`, one after the other */
     KR_DECK_TEXTS,      /* struct kr_deck_list of const char * */
     KR_DECK_FORMULA,    /* struct kr_deck_formula: expression in x, y, z, t, then a unit */
     KR_DECK_FORMULAS,   /* struct kr_deck_formula[count]: one a component; `free` leaves one out */
@@ -64,7 +65,7 @@ struct kr_deck_key {
     double least, most;    /* allowed range in SI, for each number; both 0: any finite number */
     int exclusive;         /* the value must lie above `least`, not at it */
     const char *words;     /* CHOICE: "near-boundary uniform"; the first is 0 */
-    size_t count;          /* VECTOR, FORMULAS: how many; a FORMULAS may be given fewer (2 in 2D) */
+    size_t count;          /* VECTOR, FORMULAS: how many; NUMBERS: in each; a FORMULAS may be given fewer (2 in 2D) */
     const struct kr_deck_key *keys; /* SECTION, LIST, MAP */
     size_t item_size;               /* LIST, MAP */
     const char *text;               /* one or two sentences for the reference */

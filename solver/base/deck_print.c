@@ -199,7 +199,10 @@ static void print_kind(FILE *file, const struct kr_deck_key *key) {
         fprintf(file, "list of %zu, each %s", key->count, noun);
         break;
     case KR_DECK_NUMBERS:
-        fprintf(file, "list, each %s", noun);
+        if (key->count > 1)
+            fprintf(file, "list of lists of %zu, each %s", key->count, noun);
+        else
+            fprintf(file, "list, each %s", noun);
         break;
     case KR_DECK_FORMULA:
         fprintf(file, "formula of %s", noun);

@@ -64,6 +64,8 @@ static char *expected_many(const struct kr_deck_key *key) {
     char *one = expected_number(key), *text;
     if (key->type == KR_DECK_VECTOR)
         text = kr_text("a list of %zu, each %s", key->count, one);
+    else if (key->type == KR_DECK_NUMBERS && key->count > 1)
+        text = kr_text("a list of lists of %zu, each %s", key->count, one);
     else if (key->type == KR_DECK_NUMBERS)
         text = kr_text("a list, each %s", one);
     else
@@ -248,6 +250,24 @@ static void read_fixed(const struct kr_deck_spot *spot, void *place, size_t size
     kr_deck_note(spot, place);
 }
 
+/* A list of lists of `count` numbers, read into one array. */
+static void read_rows(const struct kr_deck_spot *spot, struct kr_deck_list *list) {
+    size_t columns = spot->key->count;
+    list->count = columns * spot->node->count;
+    list->item = kr_deck_own(spot->deck, kr_alloc(list->count, sizeof(double)));
+    for (size_t i = 0; i < spot->node->count; i++) {
+        char *path = kr_text("%s.%zu", spot->path, i);
+        struct kr_deck_spot row = *spot;
+        row.path = path;
+        row.node = spot->node->item[i];
+        if (row.node->kind == KR_DECK_SEQUENCE && row.node->count == columns)
+            read_each(&row, (char *)((double *)list->item + i * columns), sizeof(double));
+        else
+            kr_deck_mismatch(&row, "");
+        kr_free(path);
+    }
+}
+
 static void read_list(const struct kr_deck_spot *spot, struct kr_deck_list *list, size_t size) {
     kr_deck_note(spot, list);
     if (spot->node->kind != KR_DECK_SEQUENCE) {
@@ -255,6 +275,10 @@ static void read_list(const struct kr_deck_spot *spot, struct kr_deck_list *list
         return;
     }
     list->given = spot->given;
+    if (spot->key->type == KR_DECK_NUMBERS && spot->key->count > 1) {
+        read_rows(spot, list);
+        return;
+    }
     list->count = spot->node->count;
     list->item = kr_deck_own(spot->deck, kr_alloc(list->count, size));
     read_each(spot, list->item, size);

@@ -39,6 +39,28 @@ void kr_progress_show(struct kr_progress *p, double done, const char *format, ..
     fflush(stdout);
 }
 
+void kr_progress_note(struct kr_progress *p, const char *format, ...) {
+    double now = kr_progress_clock();
+    int first = p->shown == p->begun;
+    if (now - p->shown < (first ? 2 : p->terminal ? 1 : 10))
+        return;
+    p->shown = now;
+    va_list arguments;
+    printf("%s  %s, ", p->terminal ? "\r\033[K" : "", p->what);
+    va_start(arguments, format);
+    vprintf(format, arguments);
+    va_end(arguments);
+    printf(", %.0f s%s", now - p->begun, p->terminal ? "" : "\n");
+    fflush(stdout);
+}
+
+void kr_progress_wipe(struct kr_progress *p) {
+    if (p->terminal && p->shown != p->begun) {
+        printf("\r\033[K");
+        fflush(stdout);
+    }
+}
+
 void kr_progress_end(struct kr_progress *p, double amount, const char *unit) {
     double seconds = kr_progress_clock() - p->begun;
     printf("%s  %.0f %s in %.1f s: %.3g %s a second\n", p->terminal ? "\r\033[K" : "",

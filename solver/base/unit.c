@@ -28,6 +28,7 @@ static const struct {
     {"kg/m^3", "a density", "kg/m^3"},
     {"J/m^2", "an energy per area", "J/m^2"},
     {"N/m^3", "a force per volume", "N/m^3"},
+    {"rad", "an angle", "deg"},
     {"1", "a pure number", ""},
 };
 
@@ -58,6 +59,10 @@ static ut_unit *parse(const char *text) {
         if (!units)
             kr_stop(KR_EXIT_LIBRARY, "the unit database of udunits2 cannot be read; is the "
                                      "package libudunits2-data installed?");
+        /* udunits2 knows the degree by its whole name only. */
+        ut_unit *degree = ut_parse(units, "degree", UT_UTF8);
+        ut_map_name_to_unit("deg", UT_UTF8, degree);
+        ut_free(degree);
     }
     char *copy = ut_trim(kr_text_copy(text), UT_UTF8);
     ut_unit *unit = ut_parse(units, copy, UT_UTF8);

@@ -38,7 +38,7 @@ check results_as_node_file other_file
 check nodes_of_another_horizon stops 2 "made for 0.0015 m; run kirsch-nodes again" \
     solve --set nodes.horizon='1.6 mm'
 check nodes_of_another_model stops 2 "made for 'plane-stress'" solve --set material.model=plane-strain
-check nodes_of_another_weight stops 2 "made for 'hhb'" solve --set nodes.partial_volume=none
+check nodes_of_another_weight stops 2 "made for 'exact-centroid'" solve --set nodes.partial_volume=none
 check nodes_of_another_deformation stops 2 "made for 'mean-over-axes'" \
     solve --set nodes.surface_deformation=isotropic
 check unknown_set stops 2 "no set is called 'upper'; there are" solve --set loads.0.set=upper

@@ -174,7 +174,7 @@ static const struct row {
     {"deck_list_as_a_section", "    - {centre: [10 mm, 12.5 mm], radius: 2 mm}",
      "    centre: [10 mm, 12.5 mm]", NULL, NULL,
      "case.yaml:6:5: geometry.holes: found a section, expected a list ('- ...') of items with "
-     "centre, radius\n"
+     "centre, radius, shape, radii, size, length, width, points, corner_radius, angle\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_item_as_a_text", "    - {centre: [10 mm, 12.5 mm], radius: 2 mm}", "    - big", NULL,
      NULL,
@@ -382,8 +382,8 @@ static const struct row {
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_fault_that_would_spread_over_lines", "title: a plate",
      "title: a plate\n\"two\\nlines\": 3", NULL, NULL,
-     "case.yaml:2:1: two lines: unknown key; known here: title, no_fail, geometry, mesh, nodes, "
-     "material, cracks, loads, solver, output, track\n"
+     "case.yaml:2:1: two lines: unknown key; known here: title, preset, no_fail, geometry, mesh, "
+     "nodes, material, cracks, loads, solver, output, track\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_no_yaml", "mesh:", "mesh: {", NULL, NULL,
      "kirsch: case.yaml:10:10: not a YAML file: missing comma in flow mapping\n"},

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * The lattice that fits a plate, and the regions of it around holes.
+ * The lattice that fits a plate, boxes marked on it, and the perimeters of what is marked.
  */
 #include "test.h"
 
 #include "boxes.h"
 #include "lattice.h"
+#include "region.h"
 
 static void decimals_fit(void **unused) {
     (void)unused;
@@ -40,67 +41,91 @@ static void a_misfit_stops_and_names_the_nearest(void **unused) {
     kr_check_stops(too_coarse, NULL, 2, "the nearest that fits is");
 }
 
+/** A lattice, what is marked of it, and the regions of a plate without holes. */
+struct marks {
+    struct kr_lattice lattice;
+    unsigned char *marked;
+    struct kr_regions regions;
+};
+
+static size_t count_marked(const struct marks *m) {
+    size_t n = 0;
+    for (size_t c = 0; c < m->lattice.columns * m->lattice.rows; c++)
+        n += m->marked[c];
+    return n;
+}
+
 /** Check that every perimeter is a closed walk of lattice steps with the region on its left, and
- *  that the perimeters together bound just the region's cells. */
-static void check_perimeters(const struct kr_lattice *lattice, const struct kr_regions *regions) {
-    for (size_t r = 0; r < regions->count; r++) {
-        const struct kr_region *region = &regions->region[r];
-        long twice_area = 0;
-        size_t cells = 0;
-        for (size_t l = 0; l < region->n_loops; l++) {
-            const struct kr_region_loop *loop = &region->loop[l];
-            long steps = 0, loop_area = 0;
-            for (size_t k = 0; k < loop->n_corners; k++) {
-                const struct kr_region_corner *a = &loop->corner[k];
-                const struct kr_region_corner *b = &loop->corner[(k + 1) % loop->n_corners];
-                long dx = (long)b->i - (long)a->i, dy = (long)b->j - (long)a->j;
-                assert_true((dx == 0) != (dy == 0));
-                assert_int_equal(labs(dx) + labs(dy), a->run);
-                loop_area += (long)a->i * (long)b->j - (long)b->i * (long)a->j;
-                steps += (long)a->run;
+ *  that the perimeters together bound just the marked cells. */
+static void check_perimeters(const struct marks *m) {
+    long twice_area = 0, wide = (long)m->lattice.columns + 1;
+    for (size_t r = 0; r < m->regions.count; r++)
+        for (size_t l = 0; l < m->regions.region[r].n_loops; l++) {
+            const struct kr_region_loop *loop = &m->regions.region[r].loop[l];
+            long loop_area = 0;
+            for (size_t k = 0; k < loop->n; k++) {
+                long a = (long)loop->point[k], b = (long)loop->point[(k + 1) % loop->n];
+                assert_int_equal(labs(b % wide - a % wide) + labs(b / wide - a / wide), 1);
+                loop_area += (a % wide) * (b / wide) - (b % wide) * (a / wide);
             }
-            assert_int_equal(steps % 2, 0); /* quadrilaterals can fill it */
+            assert_int_equal(loop->n % 2, 0); /* quadrilaterals can fill it */
             assert_true(l == 0 ? loop_area > 0 : loop_area < 0);
+            kr_check_near(2 * loop->area, loop_area, 0);
             twice_area += loop_area;
         }
-        for (size_t c = 0; c < lattice->columns * lattice->rows; c++)
-            cells += regions->of_cell[c] == (int32_t)r;
-        assert_int_equal(cells, region->n_cells);
-        assert_int_equal(twice_area, 2 * cells);
-    }
+    assert_int_equal(twice_area, 2 * count_marked(m));
 }
 
-/** No two cells of regions meet at a corner only. */
-static void check_corners(const struct kr_lattice *lattice, const struct kr_regions *regions) {
-    for (size_t j = 1; j < lattice->rows; j++)
-        for (size_t i = 1; i < lattice->columns; i++) {
-            const int32_t *below = regions->of_cell + kr_lattice_cell(lattice, i - 1, j - 1);
-            const int32_t *above = below + lattice->columns;
-            int is_contact = (below[0] < 0) == (above[1] < 0) && (below[1] < 0) == (above[0] < 0) &&
-                             (below[0] < 0) != (below[1] < 0);
-            assert_false(is_contact);
+/** No two marked cells meet at a corner only. */
+static void check_corners(const struct marks *m) {
+    for (size_t j = 1; j < m->lattice.rows; j++)
+        for (size_t i = 1; i < m->lattice.columns; i++) {
+            const unsigned char *below = m->marked + kr_lattice_cell(&m->lattice, i - 1, j - 1);
+            const unsigned char *above = below + m->lattice.columns;
+            assert_false(below[0] == above[1] && below[1] == above[0] && below[0] != below[1]);
         }
 }
 
-static struct kr_regions *regions_of(const struct kr_lattice *lattice, size_t n,
-                                     const struct kr_case_hole *hole, double padding) {
-    struct kr_regions *regions = kr_regions_create(lattice, n, hole, padding);
-    check_perimeters(lattice, regions);
-    check_corners(lattice, regions);
-    return regions;
+static struct marks marks_of(const struct kr_lattice *lattice, size_t n,
+                             const struct kr_case_hole *hole, double padding) {
+    size_t cells = lattice->columns * lattice->rows;
+    struct marks m = {.lattice = *lattice, .marked = KR_NEW(unsigned char, cells)};
+    struct kr_curve frame = kr_curve_frame((double)lattice->columns, (double)lattice->rows);
+    struct kr_polygon polygon = kr_polygon_of(&(struct kr_shape){1, &frame}, lattice);
+    int32_t *holder = KR_NEW(int32_t, cells);
+    for (size_t h = 0; h < n; h++) {
+        double box[1][4];
+        for (int d = 0; d < 4; d++)
+            box[0][d] =
+                (hole[h].centre[d % 2] + (d < 2 ? -hole[h].radius : hole[h].radius)) /
+                lattice->spacing;
+        kr_boxes_mark(lattice, 1, (const double(*)[4])box, padding / lattice->spacing, m.marked);
+    }
+    kr_boxes_join_corners(lattice, m.marked);
+    m.regions = kr_regions_of(lattice, &polygon, holder, m.marked);
+    kr_free(holder);
+    kr_curve_free(&frame);
+    kr_polygon_free(&polygon);
+    check_perimeters(&m);
+    check_corners(&m);
+    return m;
+}
+
+static void free_marks(struct marks *m) {
+    kr_free(m->marked);
+    kr_regions_free(&m->regions);
 }
 
 static void a_box_is_snapped_outward(void **unused) {
     (void)unused;
     struct kr_lattice lattice = {20, 16, 0.1};
     struct kr_case_hole hole = {{0.93, 0.8}, 0.2}; /* 0.93 - 0.4 = 5.3, 13.3; 4 and 12 exactly */
-    struct kr_regions *regions = regions_of(&lattice, 1, &hole, 0.2);
-    assert_int_equal(regions->count, 1);
-    assert_int_equal(regions->region[0].n_cells, 9 * 8);
-    assert_int_equal(regions->region[0].loop[0].corner[0].i, 5);
-    assert_int_equal(regions->region[0].loop[0].corner[0].j, 4);
-    assert_int_equal(regions->region[0].loop[0].n_corners, 4);
-    kr_regions_free(regions);
+    struct marks m = marks_of(&lattice, 1, &hole, 0.2);
+    assert_int_equal(m.regions.count, 1);
+    assert_int_equal(count_marked(&m), 9 * 8);
+    assert_int_equal(m.regions.region[0].loop[0].point[0], 4 * 21 + 5);
+    assert_int_equal(m.regions.region[0].loop[0].n, 2 * (9 + 8));
+    free_marks(&m);
     assert_int_equal(kr_memory_outstanding(), 0);
 }
 
@@ -114,9 +139,9 @@ static void decimals_are_not_snapped_to_the_next_line(void **unused) {
             double one = step[k][0], of = step[k][1];
             struct kr_lattice lattice = {40, 40, one / of};
             struct kr_case_hole hole = {{i * one / of, (41 - i) * one / of}, 2 * one / of};
-            struct kr_regions *regions = regions_of(&lattice, 1, &hole, 2 * one / of);
-            assert_int_equal(regions->region[0].n_cells, 64);
-            kr_regions_free(regions);
+            struct marks m = marks_of(&lattice, 1, &hole, 2 * one / of);
+            assert_int_equal(count_marked(&m), 64);
+            free_marks(&m);
         }
 }
 
@@ -124,9 +149,9 @@ static void a_box_ends_at_the_plate(void **unused) {
     (void)unused;
     struct kr_lattice lattice = {20, 16, 0.1};
     struct kr_case_hole hole = {{0.25, 1.4}, 0.15};
-    struct kr_regions *regions = regions_of(&lattice, 1, &hole, 0.25);
-    assert_int_equal(regions->region[0].n_cells, 7 * 6);
-    kr_regions_free(regions);
+    struct marks m = marks_of(&lattice, 1, &hole, 0.25);
+    assert_int_equal(count_marked(&m), 7 * 6);
+    free_marks(&m);
 }
 
 static void boxes_that_overlap_or_touch_are_one(void **unused) {
@@ -135,18 +160,17 @@ static void boxes_that_overlap_or_touch_are_one(void **unused) {
     struct kr_case_hole overlap[] = {{{1, 1}, 0.3}, {{1.7, 1.1}, 0.3}};
     struct kr_case_hole touch[] = {{{1, 1}, 0.3}, {{2, 1}, 0.3}};
     struct kr_case_hole apart[] = {{{1, 1}, 0.3}, {{2.1, 1}, 0.3}};
-    struct kr_regions *regions = regions_of(&lattice, 2, overlap, 0.2);
-    assert_int_equal(regions->count, 1);
-    assert_int_equal(regions->region[0].n_holes, 2);
-    assert_int_equal(regions->region[0].n_cells, 100 + 100 - 3 * 9);
-    kr_regions_free(regions);
-    regions = regions_of(&lattice, 2, touch, 0.2);
-    assert_int_equal(regions->count, 1);
-    assert_int_equal(regions->region[0].loop[0].n_corners, 4);
-    kr_regions_free(regions);
-    regions = regions_of(&lattice, 2, apart, 0.2);
-    assert_int_equal(regions->count, 2);
-    kr_regions_free(regions);
+    struct marks m = marks_of(&lattice, 2, overlap, 0.2);
+    assert_int_equal(m.regions.count, 1);
+    assert_int_equal(count_marked(&m), 100 + 100 - 3 * 9);
+    free_marks(&m);
+    m = marks_of(&lattice, 2, touch, 0.2);
+    assert_int_equal(m.regions.count, 1);
+    assert_int_equal(m.regions.region[0].loop[0].n, 2 * (20 + 10));
+    free_marks(&m);
+    m = marks_of(&lattice, 2, apart, 0.2);
+    assert_int_equal(m.regions.count, 2);
+    free_marks(&m);
 }
 
 static void corner_contacts_are_repaired(void **unused) {
@@ -155,10 +179,10 @@ static void corner_contacts_are_repaired(void **unused) {
     struct kr_case_hole rising[] = {{{1, 1}, 0.3}, {{2, 2}, 0.3}};
     struct kr_case_hole falling[] = {{{1, 2}, 0.3}, {{2, 1}, 0.3}};
     for (int k = 0; k < 2; k++) {
-        struct kr_regions *regions = regions_of(&lattice, 2, k ? falling : rising, 0.2);
-        assert_int_equal(regions->count, 1);
-        assert_int_equal(regions->region[0].n_cells, 2 * 100 + 1);
-        kr_regions_free(regions);
+        struct marks m = marks_of(&lattice, 2, k ? falling : rising, 0.2);
+        assert_int_equal(m.regions.count, 1);
+        assert_int_equal(count_marked(&m), 2 * 100 + 1);
+        free_marks(&m);
     }
 }
 
@@ -167,10 +191,10 @@ static void a_repair_that_makes_a_contact_is_repaired(void **unused) {
     (void)unused;
     struct kr_lattice lattice = {40, 40, 0.1};
     struct kr_case_hole hole[] = {{{1.5, 1.5}, 0.3}, {{2.5, 2.5}, 0.3}, {{2.6, 1.4}, 0.3}};
-    struct kr_regions *regions = regions_of(&lattice, 3, hole, 0.2);
-    assert_int_equal(regions->count, 1);
-    assert_int_equal(regions->region[0].n_cells, 3 * 100 + 2);
-    kr_regions_free(regions);
+    struct marks m = marks_of(&lattice, 3, hole, 0.2);
+    assert_int_equal(m.regions.count, 1);
+    assert_int_equal(count_marked(&m), 3 * 100 + 2);
+    free_marks(&m);
 }
 
 static void a_ring_of_boxes_has_an_inner_perimeter(void **unused) {
@@ -182,15 +206,14 @@ static void a_ring_of_boxes_has_an_inner_perimeter(void **unused) {
         for (int j = 0; j < 3; j++)
             if (i != 1 || j != 1)
                 hole[n++] = (struct kr_case_hole){{1.5 + 1.0 * i, 1.5 + 1.0 * j}, 0.35};
-    struct kr_regions *regions = regions_of(&lattice, 8, hole, 0.05);
-    assert_int_equal(regions->count, 8); /* two cells stay between neighbours */
-    kr_regions_free(regions);
-    regions = regions_of(&lattice, 8, hole, 0.1); /* snapped, they touch */
-    assert_int_equal(regions->count, 1);
-    assert_int_equal(regions->region[0].n_loops, 2);
-    assert_int_equal(regions->region[0].n_holes, 8);
-    assert_int_equal(regions->region[0].n_cells, 800);
-    kr_regions_free(regions);
+    struct marks m = marks_of(&lattice, 8, hole, 0.05);
+    assert_int_equal(m.regions.count, 8); /* two cells stay between neighbours */
+    free_marks(&m);
+    m = marks_of(&lattice, 8, hole, 0.1); /* snapped, they touch */
+    assert_int_equal(m.regions.count, 1);
+    assert_int_equal(m.regions.region[0].n_loops, 2);
+    assert_int_equal(count_marked(&m), 800);
+    free_marks(&m);
 }
 
 static void many_random_boxes_have_sound_perimeters(void **unused) {
@@ -199,7 +222,6 @@ static void many_random_boxes_have_sound_perimeters(void **unused) {
     uint64_t state = 5;
     for (int trial = 0; trial < 200; trial++) {
         struct kr_case_hole hole[40];
-        size_t holes = 0;
         for (size_t h = 0; h < 40; h++) {
             double draw[3];
             for (int d = 0; d < 3; d++) {
@@ -209,11 +231,8 @@ static void many_random_boxes_have_sound_perimeters(void **unused) {
             hole[h] = (struct kr_case_hole){{0.1 + 14.8 * draw[0], 0.1 + 10.8 * draw[1]},
                                             0.05 + 0.3 * draw[2]};
         }
-        struct kr_regions *regions = regions_of(&lattice, 40, hole, 0.31);
-        for (size_t r = 0; r < regions->count; r++)
-            holes += regions->region[r].n_holes;
-        assert_int_equal(holes, 40);
-        kr_regions_free(regions);
+        struct marks m = marks_of(&lattice, 40, hole, 0.31);
+        free_marks(&m);
     }
     assert_int_equal(kr_memory_outstanding(), 0);
 }

@@ -5,6 +5,7 @@
 #include "test.h"
 
 #include "builder.h"
+#include "frame.h"
 #include "lattice.h"
 #include "mesh.h"
 #include "side.h"
@@ -16,7 +17,7 @@ static struct kr_mesh *small(void) {
     for (size_t j = 0; j < 2; j++)
         for (size_t i = 0; i < 3; i++)
             kr_builder_square(&builder, i, j);
-    kr_builder_outline(&builder, NULL);
+    kr_frame_edges(&builder);
     return kr_builder_end(&builder);
 }
 

@@ -6,6 +6,7 @@
 #include "test.h"
 
 #include "builder.h"
+#include "frame.h"
 #include "lattice.h"
 #include "mesh.h"
 
@@ -61,7 +62,7 @@ static struct kr_mesh *sample(void) {
            d = kr_builder_lattice_point(&builder, 2, 2);
     kr_builder_cell(&builder, 3, (size_t[]){a, b, c});
     kr_builder_cell(&builder, 3, (size_t[]){a, c, d});
-    kr_builder_outline(&builder, NULL);
+    kr_frame_edges(&builder);
     struct kr_mesh *mesh = kr_builder_end(&builder);
     static const size_t member[] = {1, 4, 5};
     for (size_t k = 0; k < mesh->n_cells; k++)

@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Checks of outline, holes and pores. What only the exact curves can tell (an edge that crosses
+ * itself, a rounding that does not fit) kirsch-mesh finds out.
+ */
+#include "case.h"
+
+#include <math.h>
+#include <string.h>
+
+double kr_case_hole_reach(const struct kr_case_hole *hole, double centre[2]) {
+    const double *point = hole->points.item;
+    double reach = 0;
+    memcpy(centre, hole->centre, sizeof hole->centre);
+    switch ((enum kr_hole_shape)hole->shape) {
+    case KR_HOLE_CIRCLE:
+        return hole->radius;
+    case KR_HOLE_ELLIPSE:
+        return fmax(hole->radii[0], hole->radii[1]);
+    case KR_HOLE_RECTANGLE:
+        return hypot(hole->size[0], hole->size[1]) / 2;
+    case KR_HOLE_SLOT:
+        return hole->length / 2;
+    case KR_HOLE_POLYGON:
+        for (size_t k = 0; k + 1 < hole->points.count; k += 2)
+            reach = fmax(reach, hypot(point[k], point[k + 1]));
+    }
+    return reach;
+}
+
+/* ---- what each shape needs ---- */
+
+/* A key of a shape, and what it looks like where it is missing. */
+struct part {
+    const char *name, *example;
+    size_t offset;
+};
+
+#define PART(type, field, example_) {#field, example_, offsetof(struct type, field)}
+enum { HOLE_PARTS = 9, OUTLINE_PARTS = 5 };
+static const struct part hole_part[HOLE_PARTS] = {
+    PART(kr_case_hole, centre, "[10 mm, 5 mm]"), PART(kr_case_hole, radius, "2 mm"),
+    PART(kr_case_hole, radii, "[2 mm, 1 mm]"),   PART(kr_case_hole, size, "[2 mm, 1 mm]"),
+    PART(kr_case_hole, length, "4 mm"),          PART(kr_case_hole, width, "1 mm"),
+    PART(kr_case_hole, points, "[[0 mm, 0 mm], [2 mm, 0 mm], [1 mm, 2 mm]]"),
+    PART(kr_case_hole, corner_radius, "0.5 mm"), PART(kr_case_hole, angle, "30 deg"),
+};
+static const struct part outline_part[OUTLINE_PARTS] = {
+    PART(kr_case_outline, centre, "[10 mm, 10 mm]"),
+    PART(kr_case_outline, radius, "10 mm"),
+    PART(kr_case_outline, inner_radius, "4 mm"),
+    PART(kr_case_outline, points, "[[0 mm, 0 mm], [20 mm, 0 mm], [10 mm, 20 mm]]"),
+    PART(kr_case_outline, corner_radius, "1 mm"),
+};
+
+/* A letter a part: n needed, o optional, - not of this shape. In the order of the words. */
+static const char *const hole_rules[] = {"nn-------", "n-n-----o", "n--n---oo", "o-----noo",
+                                         "n---nn--o"};
+static const char *const outline_rules[] = {"-----", "---no", "on---", "onn--"};
+
+/* Hold the keys given against a rule; returns whether they keep it. */
+static int check_parts(struct kr_deck *deck, const void *from, size_t n, const struct part *part,
+                       const char *rule, const char *word) {
+    int sound = 1;
+    for (size_t k = 0; k < n; k++) {
+        const void *at = (const char *)from + part[k].offset;
+        int given = kr_deck_given(deck, at);
+        if (rule[k] == 'n' && !given)
+            kr_deck_fault(deck, at, "missing; expected %s: %s for shape %s", part[k].name,
+                          part[k].example, word);
+        else if (rule[k] == '-' && given)
+            kr_deck_fault(deck, at, "shape %s has no %s", word, part[k].name);
+        else
+            continue;
+        sound = 0;
+    }
+    return sound;
+}
+
+/* Whether the deck gives any part but the centre, which has the address of the item as a whole. An
+   item that is no map has none, and its fault is reported. */
+static int has_parts(const struct kr_deck *deck, const struct kr_case_hole *hole) {
+    for (size_t k = 1; k < HOLE_PARTS; k++)
+        if (kr_deck_given(deck, (const char *)hole + hole_part[k].offset))
+            return 1;
+    return kr_deck_given(deck, &hole->shape) || !kr_deck_faults(deck);
+}
+
+static int check_points(struct kr_deck *deck, const struct kr_deck_list *points) {
+    if (points->given && points->count < 6)
+        kr_deck_fault(deck, points, "found %zu corners, expected three or more", points->count / 2);
+    return !points->given || points->count >= 6;
+}
+
+/* ---- the checks ---- */
+
+/* Distance from the plate's frame; 0 within it. */
+static double beyond_plate(const struct kr_case *c, const double *p) {
+    double x = fmax(fmax(-p[0], p[0] - c->width), 0), y = fmax(fmax(-p[1], p[1] - c->height), 0);
+    return hypot(x, y);
+}
+
+static void check_place(struct kr_deck *deck, const struct kr_case *c,
+                        const struct kr_case_hole *hole) {
+    double centre[2], reach = kr_case_hole_reach(hole, centre);
+    if (!(reach > 0))
+        return; /* a fault of the reader */
+    if (hole->shape == KR_HOLE_CIRCLE && 2 * reach > fmax(c->width, c->height))
+        kr_deck_fault(deck, &hole->radius,
+                      "the hole's diameter of %g m is more than the plate's longer side",
+                      2 * reach);
+    else if (hole->shape == KR_HOLE_SLOT && hole->width >= hole->length)
+        kr_deck_fault(deck, &hole->width, "%g m is not below the slot's length of %g m",
+                      hole->width, hole->length);
+    else if (beyond_plate(c, centre) >= reach)
+        kr_deck_fault(deck, hole->centre,
+                      "the hole lies outside the plate of %g m x %g m, %g m from it", c->width,
+                      c->height, beyond_plate(c, centre) - reach);
+}
+
+static void check_holes(struct kr_deck *deck, const struct kr_case *c) {
+    const struct kr_case_hole *holes = c->holes.item;
+    for (size_t i = 0; i < c->holes.count && c->width > 0 && c->height > 0; i++) {
+        char word[32];
+        kr_case_word(KR_HOLE_WORDS, holes[i].shape, word);
+        if (holes[i].shape >= 0 && has_parts(deck, &holes[i]) &&
+            check_parts(deck, &holes[i], HOLE_PARTS, hole_part, hole_rules[holes[i].shape], word) &&
+            check_points(deck, &holes[i].points))
+            check_place(deck, c, &holes[i]);
+    }
+}
+
+static void check_outline(struct kr_deck *deck, const struct kr_case *c) {
+    const struct kr_case_outline *o = &c->outline;
+    const double *point = o->points.item;
+    char word[32];
+    kr_case_word(KR_OUTLINE_WORDS, o->shape, word);
+    if (o->shape < 0 ||
+        !check_parts(deck, o, OUTLINE_PARTS, outline_part, outline_rules[o->shape], word) ||
+        !check_points(deck, &o->points) || !(c->width > 0) || !(c->height > 0))
+        return;
+    for (size_t k = 0; k < o->points.count; k += 2)
+        if (beyond_plate(c, point + k) > 0)
+            kr_deck_fault(deck, point + k, "the corner lies outside width by height, %g m x %g m",
+                          c->width, c->height);
+    if (o->shape == KR_OUTLINE_RING && o->inner_radius >= o->radius)
+        kr_deck_fault(deck, &o->inner_radius, "%g m is not below the outer radius of %g m",
+                      o->inner_radius, o->radius);
+    if (o->radius > 0) {
+        int given = kr_deck_given(deck, o->centre);
+        double x = given ? o->centre[0] : c->width / 2, y = given ? o->centre[1] : c->height / 2;
+        double room = fmin(fmin(x, c->width - x), fmin(y, c->height - y));
+        if (o->radius > room * (1 + 1e-9))
+            kr_deck_fault(deck, &o->radius,
+                          "%g m does not fit into width by height: %g m are there around the "
+                          "centre",
+                          o->radius, room);
+    }
+}
+
+static void check_pores(struct kr_deck *deck, const struct kr_case *c) {
+    const struct kr_case_pores *pores = &c->pores;
+    double least = pores->radius[0], most = pores->radius[1];
+    if (!pores->count)
+        return;
+    if (!kr_deck_given(deck, pores->radius)) {
+        kr_deck_fault(deck, pores->radius,
+                      "missing; expected least and largest radius, such as [0.2 mm, 0.5 mm]");
+        return;
+    }
+    if (least > most)
+        kr_deck_fault(deck, pores->radius, "the least, %g m, is more than the largest, %g m", least,
+                      most);
+    else if (2 * most > fmin(c->width, c->height) && c->width > 0 && c->height > 0)
+        kr_deck_fault(deck, &pores->radius[1],
+                      "a pore of %g m in diameter does not fit into the plate", 2 * most);
+    else if ((double)pores->count * M_PI * least * least > c->width * c->height)
+        kr_deck_fault(deck, &pores->count,
+                      "%lld pores of %g m in radius have more area than the plate",
+                      (long long)pores->count, least);
+}
+
+void kr_case_check_geometry(struct kr_deck *deck, const struct kr_case *c) {
+    check_outline(deck, c);
+    check_holes(deck, c);
+    check_pores(deck, c);
+}
