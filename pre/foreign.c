@@ -30,6 +30,8 @@ static char *listen(struct kr_child *child) {
         line[strcspn(line, "\n")] = 0;
         if (!strncmp(line, "Note: ", 6))
             kr_warn("%s", line + 6);
+        else if (!strncmp(line, "Warning", 7) && strstr(line, ": "))
+            kr_warn("%s", strstr(line, ": ") + 2);
         else if (!strncmp(line, "Error", 5) && strstr(line, ": ") && !error)
             error = kr_text_copy(strstr(line, ": ") + 2);
     }

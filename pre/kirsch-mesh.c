@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "case.h"
 #include "mesh.h"
+#include "pieces.h"
 #include "plate.h"
 #include "quality.h"
 
@@ -29,6 +30,7 @@ int main(int argc, char **argv) {
                              .spacing = c.spacing,
                              .padding = c.padding > 0 ? c.padding : c.horizon,
                              .grid = (enum kr_grid)c.grid,
+                             .lloyd_steps = c.lloyd_steps,
                              .outline = c.outline};
     if (arguments.explain) {
         kr_say("lattice of %.0f by %.0f cells of %.9g mm, boxes %.9g mm around %zu holes and %lld "
@@ -41,8 +43,9 @@ int main(int argc, char **argv) {
     plate.hole = hole;
     struct kr_mesh *mesh = kr_plate_mesh(&plate, &report);
     char *path = kr_case_file(&c, "plate.msh");
-    kr_mesh_write_msh(mesh, path);
     kr_quality_print(mesh, &plate, &report);
+    kr_pieces_cut(mesh);
+    kr_mesh_write_msh(mesh, path);
     kr_say("  wrote %s", path);
 
     kr_free(path);

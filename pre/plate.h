@@ -6,6 +6,7 @@
  *                wherever else an edge does not fit the lattice
  * uniform        squares of the lattice whose centres lie in the body: a staircase
  * free           quadrilaterals by gmsh everywhere
+ * voronoi        squares of the lattice, near edges that do not fit it Voronoi cells cut by them
  *
  * But on the uniform grid, edges are polygons with sides of about a spacing and the exact area of
  * what they bound. A circle of radius R and n sides has its corners at R sqrt(theta / sin theta),
@@ -30,6 +31,7 @@ struct kr_plate {
     size_t n_holes;
     const struct kr_case_hole *hole; /* they may overlap and cut the outline */
     struct kr_gmsh_options gmsh;
+    int64_t lloyd_steps;            /* voronoi only */
     struct kr_case_outline outline; /* zeros: the rectangle of width by height */
 };
 

@@ -166,6 +166,20 @@ static void report_lost(const struct kr_mesh *mesh, const struct kr_mesh_group *
 }
 
 
+/** Abaqus likes one name for a set of elements and a set of nodes: the latter gives way. */
+static void make_unique(struct kr_mesh *mesh, struct kr_mesh_group *group) {
+    for (size_t g = 0; g < mesh->n_groups; g++) {
+        const struct kr_mesh_group *other = &mesh->group[g];
+        if (other == group || other->dim != group->dim || strcmp(other->name, group->name))
+            continue;
+        char *name = kr_text("%s_points", group->name);
+        kr_warn("there are two sets named '%s'; the one of points is now '%s'", group->name, name);
+        kr_free(group->name);
+        group->name = name;
+        g = (size_t)-1; /* begin again with the new name */
+    }
+}
+
 void kr_mesh_resolve_points(struct kr_mesh *mesh) {
     struct rim rim = {0};
     for (size_t g = 0; g < mesh->n_groups; g++) {
@@ -182,6 +196,7 @@ void kr_mesh_resolve_points(struct kr_mesh *mesh) {
         group->dim = dim;
         group->count = found.count;
         group->member = kr_realloc(found.member, found.count, sizeof *found.member);
+        make_unique(mesh, group);
     }
     kr_free(rim.is_on);
     kr_free(rim.first);

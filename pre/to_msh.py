@@ -35,6 +35,9 @@ KINDS = {
     "pyramid": (7, 3, None),
     "pyramid13": (19, 3, [0, 1, 2, 3, 4, 5, 8, 9, 6, 10, 7, 11, 12]),
 }
+NODES = {"vertex": 1, "line": 2, "line3": 3, "triangle": 3, "triangle6": 6, "quad": 4, "quad8": 8,
+         "quad9": 9, "tetra": 4, "tetra10": 10, "hexahedron": 8, "hexahedron20": 20,
+         "hexahedron27": 27, "wedge": 6, "wedge15": 15, "pyramid": 5, "pyramid13": 13}
 # Faces of solids in Exodus's side sets, by its side numbers; corners count from 0.
 SIDES = {
     "triangle": [(0, 1), (1, 2), (2, 0)], "quad": [(0, 1), (1, 2), (2, 3), (3, 0)],
@@ -75,6 +78,11 @@ class Body:
         if kind not in KINDS:
             stop(f"elements of kind '{kind}' are not read; expected lines, triangles, "
                  "quadrilaterals, tetrahedra, hexahedra, wedges and pyramids of order 1 or 2")
+        wanted = NODES[kind]
+        if rows.ndim != 2 or rows.shape[1] != wanted:
+            stop(f"elements of kind '{kind}' have {rows.shape[-1]} nodes; expected {wanted}")
+        if rows.size and (rows.min() < 0 or rows.max() >= len(self.points)):
+            stop(f"an element has the node {rows.max()}, and there are {len(self.points)}")
         self.blocks.append((kind, rows))
         self.tags.append(tags)
         return len(self.blocks) - 1
@@ -101,13 +109,13 @@ def abaqus_kind(word, count):
 
 def abaqus_count(word):
     """Nodes of an element, from its name."""
-    named = {"STRI65": 6, "S9R5": 9, "S8R5": 8, "S4R5": 4, "B21": 2, "B31": 2, "B33": 2, "B23": 2,
-             "B22": 3, "B32": 3, "R2D2": 2, "MASS": 1, "CONN3D2": 2}
-    base = re.sub(r"(?<=\d)[A-Z]+\d*$", "", word)
-    if word in named or base in named:
-        return named.get(word) or named[base]
-    digits = re.search(r"(\d+)$", base)
-    return int(digits.group(1)) if digits else 0
+    named = {"STRI65": 6, "B21": 2, "B31": 2, "B33": 2, "B23": 2, "B22": 3, "B32": 3, "MASS": 1}
+    base = re.sub(r"[HRTIMP]+$", "", word)
+    if base in named:
+        return named[base]
+    found = re.match(r"(?:[ACD]*C3D|CIN3D|COH3D|CAX|CGAX|CPS|CPEG?|CGPE|[AD]C2D|M3D|R[23]D|SFM3D|SC|"
+                     r"STRI|S|T[23]D)(\d+)", word)
+    return int(found.group(1)) if found else 0
 
 
 def inp_lines(path, depth=0):
@@ -116,6 +124,8 @@ def inp_lines(path, depth=0):
         stop(f"{path}: more than 20 files include each other")
     with open(path, errors="replace") as file:
         for line in file:
+            if not line.endswith("\n"):
+                note(f"{os.path.basename(path)} does not end with a whole line: it may be cut")
             if line.startswith("**") or not line.strip():
                 continue
             if re.match(r"\*INCLUDE", line, re.I):
@@ -181,7 +191,8 @@ def read_inp(path):
         if keyword == "NODE":
             for line in data:
                 words = line.split(",")
-                nodes[int(words[0])] = [float(w) for w in (words[1:4] + ["0", "0"])[:3] if w.strip() or 1]
+                nodes[int(words[0])] = [float(w) if w.strip() else 0.0
+                                        for w in (words[1:4] + ["", ""])[:3]]
             if "NSET" in options:
                 node_sets.add(options["NSET"], {}, [line.split(",")[0] for line in data])
         elif keyword == "ELEMENT":
@@ -511,7 +522,7 @@ def data_sets(body, mesh, name, parts):
         return
     names = {int(v[0]): key for key, v in mesh.field_data.items()}
     for value in different:
-        base = re.sub(r"^(gmsh|medit|nastran|avsucd|flac3d|tetgen|netgen):", "", name)
+        base = re.sub(r"^\w+:", "", name)
         title = names.get(int(value)) if name == "gmsh:physical" else None
         for block, v in enumerate(values):
             if name == "gmsh:physical" and value == 0:

@@ -94,11 +94,15 @@ static const struct kr_deck_key mesh_keys[] = {
      .fallback = "near-boundary",
      .text = "`near-boundary`: a square lattice, cut out around each hole and filled there by gmsh "
              "with cells that follow the rim; `uniform`: the lattice alone, with jagged holes; "
-             "`free`: gmsh everywhere."},
+             "`free`: gmsh everywhere; `voronoi`: the lattice, near edges Voronoi cells that the "
+             "edge cuts ([grids.md](grids.md))."},
     {"spacing", NUMBER_OF(AT(spacing), "m"), POSITIVE, .text = "Spacing of the lattice."},
     {"padding", NUMBER_OF(AT(padding), "m"), .fallback = "", NOT_NEGATIVE,
      .text = "From the rim of a hole to the edge of the box that is meshed around it; not given "
              "or 0: the horizon."},
+    {"lloyd_steps", KR_DECK_INTEGER, AT(lloyd_steps), .fallback = "5", .least = 0, .most = 100,
+     .text = "`voronoi`: how often the nodes within a padding of an edge move to the centroids of "
+             "their cells; each step makes the areas more even and the cells less square."},
     {NULL},
 };
 

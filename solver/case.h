@@ -9,7 +9,7 @@
 #include "base/deck.h"
 
 /* Choices of the deck and their words, in one order. */
-#define KR_GRID_WORDS "near-boundary uniform free"
+#define KR_GRID_WORDS "near-boundary uniform free voronoi"
 #define KR_HOLE_WORDS "circle ellipse rectangle polygon slot"
 #define KR_OUTLINE_WORDS "rectangle polygon disc ring"
 #define KR_PARTIAL_VOLUME_WORDS "hhb none hhb-one-sided exact exact-centroid"
@@ -18,7 +18,7 @@
 #define KR_MODEL_WORDS "plane-stress plane-strain"
 #define KR_PRESET_WORDS "none plates-paper"
 enum kr_preset { KR_PRESET_NONE, KR_PRESET_PLATES_PAPER };
-enum kr_grid { KR_GRID_NEAR_BOUNDARY, KR_GRID_UNIFORM, KR_GRID_FREE };
+enum kr_grid { KR_GRID_NEAR_BOUNDARY, KR_GRID_UNIFORM, KR_GRID_FREE, KR_GRID_VORONOI };
 enum kr_hole_shape {
     KR_HOLE_CIRCLE,
     KR_HOLE_ELLIPSE,
@@ -111,6 +111,7 @@ struct kr_case {
     int grid; /* enum kr_grid */
     double spacing;    /* m */
     double padding;    /* m: from a hole to the rim of its box; 0: the horizon */
+    int64_t lloyd_steps; /* voronoi */
 
     /* nodes */
     double horizon; /* m */

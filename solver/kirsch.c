@@ -40,7 +40,7 @@ struct step {
 static const struct step steps[] = {
     {"kirsch-pores", "geometry", {NULL}, {"pores.txt"}},
     {"kirsch-mesh", "geometry mesh nodes", {"pores.txt"}, {"plate.msh"}},
-    {"kirsch-nodes", "nodes material loads no_fail", {"plate.msh"}, {"plate.nodes.h5", "nodes.dat"}},
+    {"kirsch-nodes", "nodes material loads no_fail", {"plate.msh"}, {"plate.nodes.h5"}},
     {"kirsch-solve",
      "title nodes material cracks loads no_fail solver output",
      {"plate.nodes.h5"},

@@ -1,0 +1,385 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * The Voronoi grid. Seeds stand at the centres of the lattice's cells; those near an edge that does
+ * not fit the lattice move. Two cells further the seeds stay where they are and the cells are
+ * squares again, which the lattice continues. So the Voronoi cells are needed in a band only.
+ *
+ * A cell that an edge cuts may fall into pieces. The seed's own piece is its cell; a large other
+ * piece gets a seed of its own, a small one is joined to a neighbour in the end. Where a cell
+ * reaches as far as is looked for neighbours (in the tip of a wedge), a seed is set there, too.
+ */
+#include "voronoi.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "boxes.h"
+#include "builder.h"
+#include "cell.h"
+#include "region.h"
+#include "seeds.h"
+#include "weld.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A piece of this area (spacings squared) or more gets a seed. */
+static const double LARGE = 0.4;
+/* Passes after Lloyd's in which seeds may still be set. */
+enum { MOST_PASSES = 60 };
+
+struct voronoi {
+    const struct kr_plate *plate;
+    const struct kr_plate_body *body;
+    struct kr_polygon polygon;
+    unsigned char *zone; /* (lattice cells) 0: stays a square; 1: Voronoi cell; 2: its seed moves */
+    struct kr_seeds seeds;
+    struct kr_clip clip;
+    struct kr_ring cell, spare;
+};
+
+/** Distance of a place from a side of the polygon. */
+static double distance(const struct kr_polygon *polygon, size_t side, double x, double y) {
+    const double *p = polygon->point + 2 * side, *q = polygon->point + 2 * polygon->next[side];
+    double u = q[0] - p[0], v = q[1] - p[1];
+    double t = ((x - p[0]) * u + (y - p[1]) * v) / (u * u + v * v);
+    t = fmin(fmax(t, 0), 1);
+    return hypot(x - p[0] - t * u, y - p[1] - t * v);
+}
+
+/** Mark by 2 the cells whose centres lie within `reach` of an edge that does not fit the lattice. */
+static void mark_moving(struct voronoi *v, double reach) {
+    const struct kr_lattice *lattice = &v->body->lattice;
+    for (size_t s = 0; s < v->polygon.n; s++) {
+        const double *p = v->polygon.point + 2 * s, *q = v->polygon.point + 2 * v->polygon.next[s];
+        if (v->polygon.on_line[s])
+            continue;
+        double left = fmax(floor(fmin(p[0], q[0]) - reach), 0), right = fmax(p[0], q[0]) + reach;
+        double low = fmax(floor(fmin(p[1], q[1]) - reach), 0), high = fmax(p[1], q[1]) + reach;
+        for (double j = low; j <= high && j < (double)lattice->rows; j++)
+            for (double i = left; i <= right && i < (double)lattice->columns; i++) {
+                unsigned char *zone = &v->zone[kr_lattice_cell(lattice, (size_t)i, (size_t)j)];
+                if (*zone != 2 && distance(&v->polygon, s, i + 0.5, j + 0.5) <= reach)
+                    *zone = 2;
+            }
+    }
+}
+
+/** Give `value` to the cells still 0 beside one that is not, corners included. */
+static void widen(const struct kr_lattice *lattice, unsigned char *zone, unsigned char value) {
+    size_t cells = lattice->columns * lattice->rows;
+    unsigned char *before = KR_NEW(unsigned char, cells);
+    memcpy(before, zone, cells);
+    for (size_t c = 0; c < cells; c++) {
+        if (!before[c])
+            continue;
+        size_t i = c % lattice->columns, j = c / lattice->columns;
+        for (size_t l = j ? j - 1 : 0; l <= j + 1 && l < lattice->rows; l++)
+            for (size_t k = i ? i - 1 : 0; k <= i + 1 && k < lattice->columns; k++) {
+                size_t n = kr_lattice_cell(lattice, k, l);
+                zone[n] = zone[n] ? zone[n] : value;
+            }
+    }
+    kr_free(before);
+}
+
+static void set_seeds(struct voronoi *v) {
+    const struct kr_lattice *lattice = &v->body->lattice;
+    size_t cells = lattice->columns * lattice->rows;
+    unsigned char *seen = KR_NEW(unsigned char, cells);
+    memcpy(seen, v->zone, cells);
+    for (int k = 0; k < 3; k++) /* squares whose seeds bound the outermost Voronoi cells */
+        widen(lattice, seen, 3);
+    v->seeds = kr_seeds_begin(lattice);
+    for (size_t c = 0; c < cells; c++)
+        if (seen[c] && !v->body->holder[c])
+            kr_seeds_add(&v->seeds, (double)(c % lattice->columns) + 0.5,
+                         (double)(c / lattice->columns) + 0.5,
+                         seen[c] == 3   ? KR_SEED_BOUNDS
+                         : seen[c] == 2 ? KR_SEED_MOVES
+                                        : KR_SEED_STAYS,
+                         c);
+    kr_seeds_sort(&v->seeds);
+    kr_free(seen);
+}
+
+static int ring_holds(const struct kr_ring *ring, const double at[2]) {
+    int inside = 0;
+    for (size_t k = 0; k < ring->n; k++) {
+        const double *p = ring->point[k], *q = ring->point[k + 1 < ring->n ? k + 1 : 0];
+        if ((p[1] > at[1]) != (q[1] > at[1]) &&
+            p[0] + (q[0] - p[0]) * (at[1] - p[1]) / (q[1] - p[1]) > at[0])
+            inside = !inside;
+    }
+    return inside;
+}
+
+/** Number of the part that is a seed's own: the one it stands in, else the largest. */
+static size_t own_part(const struct kr_clip *clip, const double seed[2]) {
+    double most = -1, centroid[2];
+    size_t best = 0;
+    for (size_t k = 0; k < clip->n_parts; k++) {
+        const struct kr_ring *part = &clip->part[k];
+        if (clip->n_parts == 1 || ring_holds(part, seed))
+            return k;
+        double area = kr_cell_polygon(part->n, part->point[0], centroid);
+        if (area > most) {
+            most = area;
+            best = k;
+        }
+    }
+    return best;
+}
+
+/** Clip the cell of a seed; its parts are then in v->clip. */
+static void find_cell(struct voronoi *v, size_t seed) {
+    kr_seeds_cell(&v->seeds, seed, &v->cell, &v->spare);
+    kr_clip_cell(&v->clip, &v->cell);
+}
+
+/** Set seeds where a seed's cell leaves too much or reaches too far; returns how many. */
+static size_t set_more(struct voronoi *v, size_t own, int pass) {
+    size_t set = 0;
+    for (size_t k = 0; k < v->clip.n_parts; k++) {
+        const struct kr_ring *part = &v->clip.part[k];
+        double centroid[2], area = kr_cell_polygon(part->n, part->point[0], centroid);
+        for (size_t c = 0; c < part->n; c++) {
+            const double *p = part->point[c], *q = part->point[c + 1 < part->n ? c + 1 : 0];
+            if (part->side[c] != KR_SIDE_FAR || hypot(q[0] - p[0], q[1] - p[1]) < 1e-6)
+                continue;
+            kr_seeds_add(&v->seeds, (p[0] + q[0]) / 2, (p[1] + q[1]) / 2, KR_SEED_MOVES,
+                         KR_NO_HOME);
+            return set + 1;
+        }
+        if (k != own && area >= LARGE && pass < MOST_PASSES / 2 && ring_holds(part, centroid)) {
+            kr_seeds_add(&v->seeds, centroid[0], centroid[1], KR_SEED_MOVES, KR_NO_HOME);
+            set++;
+        }
+    }
+    return set;
+}
+
+/** One pass over all cells: Lloyd's step where asked for. Returns how many seeds were set. */
+static size_t step(struct voronoi *v, int moves, int pass) {
+    size_t n = v->seeds.n, set = 0;
+    double(*to)[2] = kr_alloc(n, sizeof *to);
+    memcpy(to, v->seeds.place, n * sizeof *to);
+    for (size_t s = 0; s < n; s++) {
+        double centroid[2];
+        if (v->seeds.kind[s] != KR_SEED_MOVES)
+            continue;
+        find_cell(v, s);
+        size_t own = own_part(&v->clip, v->seeds.place[s]);
+        const struct kr_ring *part = &v->clip.part[own];
+        kr_cell_polygon(part->n, part->point[0], centroid);
+        if (moves && ring_holds(part, centroid))
+            memcpy(to[s], centroid, sizeof *to);
+        set += set_more(v, own, pass);
+    }
+    memcpy(v->seeds.place, to, n * sizeof *to);
+    kr_free(to);
+    kr_seeds_sort(&v->seeds);
+    return set;
+}
+
+static void relax(struct voronoi *v) {
+    int64_t steps = v->plate->lloyd_steps;
+    for (int pass = 0; pass < steps + MOST_PASSES; pass++)
+        if (step(v, pass < steps, pass < steps ? 0 : pass - (int)steps) == 0 && pass >= steps)
+            return;
+    kr_stop(KR_EXIT_LIBRARY, "the Voronoi cells do not cover the plate after %d passes; try another "
+                             "spacing or grid",
+            MOST_PASSES);
+}
+
+/** Whether a tile is just the square of a lattice cell. */
+static int is_square(const struct kr_lattice *lattice, const struct kr_tile *tile, size_t home) {
+    size_t i = home % lattice->columns, j = home / lattice->columns, wide = lattice->columns + 1;
+    size_t low = kr_lattice_point(lattice, i, j);
+    if (home == KR_NO_HOME || tile->n != 4)
+        return 0;
+    for (size_t k = 0; k < 4; k++)
+        if (tile->point[k] == low)
+            return tile->point[(k + 1) % 4] == low + 1 &&
+                   tile->point[(k + 2) % 4] == low + 1 + wide &&
+                   tile->point[(k + 3) % 4] == low + wide;
+    return 0;
+}
+
+/** Final cells, welded; zone cells that are squares after all become 0. */
+static struct kr_weld make_tiles(struct voronoi *v) {
+    struct kr_weld weld = kr_weld_begin(&v->polygon, &v->body->lattice);
+    size_t *home = NULL, room = 0;
+    for (size_t s = 0; s < v->seeds.n; s++) {
+        if (v->seeds.kind[s] == KR_SEED_BOUNDS)
+            continue;
+        find_cell(v, s);
+        size_t own = own_part(&v->clip, v->seeds.place[s]);
+        for (size_t k = 0; k < v->clip.n_parts; k++) {
+            double centroid[2];
+            const struct kr_ring *part = &v->clip.part[k];
+            int is_scrap =
+                k != own && kr_cell_polygon(part->n, part->point[0], centroid) < LARGE;
+            size_t before = weld.n_tiles;
+            kr_weld_add(&weld, part, is_scrap);
+            if (weld.n_tiles > before) {
+                KR_GROW(home, before, room);
+                home[before] = v->clip.n_parts == 1 ? v->seeds.home[s] : KR_NO_HOME;
+            }
+        }
+    }
+    kr_weld_close(&weld);
+    for (size_t t = 0; t < weld.n_tiles; t++)
+        if (is_square(&weld.lattice, &weld.tile[t], home[t])) {
+            v->zone[home[t]] = 0;
+            weld.tile[t].n = 0;
+        }
+    kr_free(home);
+    return weld;
+}
+
+/** Place in the mesh of a welded point; `known` holds it plus 1 for points off the lattice. */
+static size_t take_point(struct kr_builder *builder, const struct kr_weld *weld, size_t *known,
+                         size_t point) {
+    size_t wide = weld->lattice.columns + 1, n_lattice = wide * (weld->lattice.rows + 1);
+    double p[2];
+    if (point < n_lattice)
+        return kr_builder_lattice_point(builder, point % wide, point / wide);
+    size_t *number = &known[point - n_lattice];
+    kr_weld_place(weld, point, p);
+    if (!*number)
+        *number = 1 + kr_builder_point(builder, p[0] * weld->lattice.spacing,
+                                       p[1] * weld->lattice.spacing);
+    return *number - 1;
+}
+
+static void take_tiles(struct kr_builder *builder, const struct kr_weld *weld, size_t *known) {
+    size_t *point = NULL, room = 0;
+    for (size_t t = 0; t < weld->n_tiles; t++) {
+        const struct kr_tile *tile = &weld->tile[t];
+        if (tile->n > room)
+            point = kr_realloc(point, room = 2 * tile->n, sizeof *point);
+        for (size_t k = 0; k < tile->n; k++)
+            point[k] = take_point(builder, weld, known, tile->point[k]);
+        if (tile->n)
+            kr_builder_cell(builder, tile->n, point);
+    }
+    kr_free(point);
+}
+
+/** A side of a tile that lies on a side of the body. */
+struct rim {
+    int group;
+    size_t side, from, to;
+    double share; /* of the side, where it begins */
+};
+
+static int by_side(const void *a, const void *b) {
+    const struct rim *p = a, *q = b;
+    if (p->group != q->group)
+        return p->group < q->group ? -1 : 1;
+    if (p->side != q->side)
+        return p->side < q->side ? -1 : 1;
+    return (p->share > q->share) - (p->share < q->share);
+}
+
+static double share_of(const struct voronoi *v, const struct kr_weld *weld, size_t side,
+                       size_t point) {
+    const double *p = v->polygon.point + 2 * side;
+    const double *q = v->polygon.point + 2 * v->polygon.next[side];
+    double at[2], x = q[0] - p[0], y = q[1] - p[1];
+    kr_weld_place(weld, point, at);
+    return ((at[0] - p[0]) * x + (at[1] - p[1]) * y) / (x * x + y * y);
+}
+
+/** Rims of the tiles, and of the squares where the body's sides lie on the lattice. */
+static struct rim *rims_of(const struct voronoi *v, const struct kr_weld *weld, size_t *n) {
+    const struct kr_lattice *lattice = &v->body->lattice;
+    unsigned char *covered = KR_NEW(unsigned char, v->polygon.n);
+    struct rim *rim = NULL;
+    size_t room = 0;
+    *n = 0;
+    for (size_t t = 0; t < weld->n_tiles; t++)
+        for (size_t k = 0; k < weld->tile[t].n; k++) {
+            const struct kr_tile *tile = &weld->tile[t];
+            if (tile->side[k] < 0)
+                continue;
+            size_t side = (size_t)tile->side[k];
+            covered[side] = 1;
+            KR_GROW(rim, *n, room);
+            rim[(*n)++] = (struct rim){v->polygon.group[side], side, tile->point[k],
+                                       tile->point[k + 1 < tile->n ? k + 1 : 0],
+                                       share_of(v, weld, side, tile->point[k])};
+        }
+    for (size_t s = 0; s < v->polygon.n; s++)
+        if (!covered[s]) {
+            KR_GROW(rim, *n, room);
+            rim[(*n)++] = (struct rim){v->polygon.group[s], s,
+                                       kr_region_corner(lattice, &v->polygon, s),
+                                       kr_region_corner(lattice, &v->polygon, v->polygon.next[s]),
+                                       0};
+        }
+    kr_free(covered);
+    if (*n)
+        qsort(rim, *n, sizeof *rim, by_side);
+    return rim;
+}
+
+static void take_rims(struct kr_builder *builder, const struct voronoi *v,
+                      const struct kr_weld *weld, size_t *known) {
+    size_t n, k = 0;
+    struct rim *rim = rims_of(v, weld, &n);
+    for (size_t g = 0; g < v->body->n_groups; g++) {
+        for (; k < n && rim[k].group == (int)g; k++)
+            kr_builder_edge(builder, take_point(builder, weld, known, rim[k].from),
+                            take_point(builder, weld, known, rim[k].to));
+        kr_builder_group_edges(builder, v->body->group[g]);
+    }
+    kr_free(rim);
+}
+
+static struct kr_mesh *assemble(struct voronoi *v, struct kr_plate_report *report) {
+    const struct kr_lattice *lattice = &v->body->lattice;
+    struct kr_weld weld = make_tiles(v);
+    struct kr_builder builder = kr_builder_begin(lattice);
+    size_t n_lattice = (lattice->columns + 1) * (lattice->rows + 1);
+    size_t *known = KR_NEW(size_t, weld.n_points - n_lattice);
+    for (size_t c = 0; c < lattice->columns * lattice->rows; c++)
+        if (!v->zone[c] && !v->body->holder[c])
+            kr_builder_square(&builder, c % lattice->columns, c / lattice->columns);
+    report->n_lattice = builder.mesh->n_cells;
+    take_tiles(&builder, &weld, known);
+    take_rims(&builder, v, &weld, known);
+    kr_free(known);
+    kr_weld_end(&weld);
+    return kr_builder_end(&builder);
+}
+
+struct kr_mesh *kr_voronoi_mesh(const struct kr_plate *plate, const struct kr_plate_body *body,
+                                struct kr_plate_report *report) {
+    struct voronoi v = {.plate = plate, .body = body};
+    const struct kr_lattice *lattice = &body->lattice;
+    double reach = plate->padding / lattice->spacing;
+    if (!(reach >= 1 - 1e-9))
+        kr_stop(KR_EXIT_INPUT,
+                "a padding of %.9g mm is below the spacing of %.9g mm: cells need room to even out; "
+                "the horizon is a good padding",
+                1e3 * plate->padding, 1e3 * plate->spacing);
+    v.polygon = kr_polygon_of(&body->exact, lattice);
+    v.zone = KR_NEW(unsigned char, lattice->columns * lattice->rows);
+    mark_moving(&v, reach);
+    for (int k = 0; k < 2; k++)
+        widen(lattice, v.zone, 1);
+    set_seeds(&v);
+    v.clip = kr_clip_begin(&v.polygon, lattice);
+    relax(&v);
+    report->polygonal_area = v.polygon.area * lattice->spacing * lattice->spacing;
+    struct kr_mesh *mesh = assemble(&v, report);
+    kr_clip_end(&v.clip);
+    kr_seeds_end(&v.seeds);
+    kr_ring_free(&v.cell);
+    kr_ring_free(&v.spare);
+    kr_polygon_free(&v.polygon);
+    kr_free(v.zone);
+    return mesh;
+}
