@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * All partial volumes with all surface corrections on one mesh: how far families, energies and
+ * All partial volumes with all surface corrections on one grid: how far families, energies and
  * forces under uniform strain are from the classical plate's. Prints rows of a Markdown table.
  *
  * And a crack: the energy at s0 of the bonds that cross a unit of length, against G0.
@@ -13,8 +13,6 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "body.h"
-#include "convert.h"
-#include "mesh.h"
 #include "surface.h"
 
 #include <math.h>
@@ -24,7 +22,7 @@
 static const char usage[] =
     "corrections [--set KEY=VALUE]... --output FOLDER case.yaml: print the rows of the table for "
     "the\n"
-    "mesh in FOLDER; --grids: print the words of all grids. `make corrections` calls it.\n";
+    "nodes in FOLDER; --grids: print the words of all grids. `make corrections` calls it.\n";
 
 /* Small enough that the law is linear to 1e-6. */
 static const double STRAIN = 1e-6;
@@ -145,8 +143,8 @@ static double measure_drift(struct kr_body *body) {
     return hypot(net[0], net[1]) / all;
 }
 
-/* The crack runs from left to right half way between the lower edge and the hole, through the lattice,
- * between two rows of nodes. */
+/* The crack runs from left to right half way between the lower edge and the hole, through the
+ * lattice, between two rows of nodes. */
 static double measure_crack(const struct kr_case *c, const struct kr_bonds *b) {
     const struct kr_case_hole *hole = c->holes.item;
     const struct kr_material *m = &b->material;
@@ -205,15 +203,6 @@ static void print_row(int partial_volume, int correction, const struct figures *
     fflush(stdout);
 }
 
-static struct kr_nodes *read_nodes(const struct kr_case *c) {
-    char *path = kr_case_file(c, "plate.msh");
-    struct kr_mesh *mesh = kr_mesh_read_msh(path);
-    struct kr_nodes *nodes = kr_convert(mesh);
-    kr_mesh_free(mesh);
-    kr_free(path);
-    return nodes;
-}
-
 int main(int argc, char **argv) {
     static const int volumes[] = {KR_PARTIAL_VOLUME_NONE, KR_PARTIAL_VOLUME_HHB_ONE_SIDED,
                                   KR_PARTIAL_VOLUME_HHB, KR_PARTIAL_VOLUME_EXACT,
@@ -226,13 +215,15 @@ int main(int argc, char **argv) {
         return puts(KR_GRID_WORDS) < 0;
     kr_case_arguments(argc, argv, usage, &arguments);
     struct kr_deck *deck = kr_case_open(&arguments, &c);
-    struct kr_nodes *nodes = read_nodes(&c);
+    char *path = kr_case_file(&c, "plate.nodes.h5");
+    struct kr_nodes *nodes = kr_nodes_read(path);
     for (size_t v = 0; v < sizeof volumes / sizeof volumes[0]; v++)
         for (size_t k = 0; k < sizeof corrections / sizeof corrections[0]; k++) {
             struct figures f = measure(&c, nodes, volumes[v], corrections[k]);
             print_row(volumes[v], corrections[k], &f);
         }
     kr_nodes_free(nodes);
+    kr_free(path);
     kr_deck_close(deck);
     kr_free(arguments.set);
     kr_free(arguments.left);
