@@ -224,9 +224,9 @@ static double cross_sum(size_t n, double (*p)[2], double (*q)[2]) {
     return sum;
 }
 
-/** Move the corners by s times their bulge so that the polygon has the exact area. Twice the area
- *  is A + B s + C s^2; the root near 0 without cancellation. */
-static void mend_area(struct loop *loop, double exact) {
+/** Share s of their bulge by which the corners must move for the polygon to have the exact area.
+ *  Twice the area is A + B s + C s^2; the root near 0 without cancellation; 0 if there is none. */
+static double share_to_move(struct loop *loop, double exact) {
     double a = cross_sum(loop->n, loop->point, loop->point) - 2 * exact, c = 0;
     double b = cross_sum(loop->n, loop->point, loop->bulge);
     for (size_t k = 0; k < loop->n; k++) {
@@ -234,11 +234,32 @@ static void mend_area(struct loop *loop, double exact) {
         c += p[0] * q[1] - p[1] * q[0];
     }
     double under = b * b - 4 * a * c;
-    if (b == 0 || under < 0 || a == 0)
+    return b == 0 || under < 0 ? 0 : -2 * a / (b + copysign(sqrt(under), b));
+}
+
+/** Where hardly a corner stands on an arc (roundings smaller than a spacing), all corners that are
+ *  not held by a straight side of the lattice move along their mean normal. */
+static void bulge_everywhere(struct loop *loop) {
+    for (size_t k = 0; k < loop->n; k++) {
+        size_t before = k ? k - 1 : loop->n - 1, after = k + 1 < loop->n ? k + 1 : 0;
+        const double *p = loop->point[before], *q = loop->point[after];
+        double x = q[0] - p[0], y = q[1] - p[1], length = hypot(x, y);
+        int held = loop->on_line[before] || loop->on_line[k] ||
+                   loop->group[before] != loop->group[k] || length == 0;
+        loop->bulge[k][0] = held ? 0 : y / length;
+        loop->bulge[k][1] = held ? 0 : -x / length;
+    }
+}
+
+static void mend_area(struct loop *loop, double exact) {
+    double miss = cross_sum(loop->n, loop->point, loop->point) / 2 - exact;
+    if (fabs(miss) <= 1e-14 * fabs(exact)) /* straight sides alone: whole numbers stay whole */
         return;
-    double s = -2 * a / (b + copysign(sqrt(under), b));
-    if (!(fabs(s) < 1)) /* 1/12 to 1/6 is what circles need */
-        return;
+    double s = share_to_move(loop, exact);
+    if (fabs(s) > 0.5 || s == 0) { /* 1/12 to 1/6 is what circles need */
+        bulge_everywhere(loop);
+        s = share_to_move(loop, exact);
+    }
     for (size_t k = 0; k < loop->n; k++)
         for (int d = 0; d < 2; d++)
             loop->point[k][d] += s * loop->bulge[k][d];

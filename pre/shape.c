@@ -177,8 +177,14 @@ int kr_curve_holds(const struct kr_curve *curve, const double point[2]) {
     return inside;
 }
 
+static int is_whole(const struct kr_piece *piece) {
+    return piece->is_arc && fabs(piece->t1 - piece->t0) == 2 * M_PI;
+}
+
 static double distance_at(const struct kr_piece *piece, double u, const double point[2]) {
     double at[2];
+    if (is_whole(piece)) /* the way goes on past its end */
+        u -= floor(u);
     kr_piece_at(piece, u, at, NULL);
     return hypot(at[0] - point[0], at[1] - point[1]);
 }
@@ -202,7 +208,11 @@ double kr_piece_distance(const struct kr_piece *piece, const double point[2]) {
             nearest = k;
         }
     }
-    double low = fmax(0, nearest - 1.0) / SAMPLES, high = fmin(SAMPLES, nearest + 1.0) / SAMPLES;
+    double low = (nearest - 1.0) / SAMPLES, high = (nearest + 1.0) / SAMPLES;
+    if (!is_whole(piece)) {
+        low = fmax(low, 0);
+        high = fmin(high, 1);
+    }
     for (int k = 0; k < 60; k++) {
         double u = low + golden * (high - low), v = high - golden * (high - low);
         if (distance_at(piece, u, point) < distance_at(piece, v, point))
