@@ -6,7 +6,8 @@
  * Columns are named by the first line: `x,y,volume` or PeriLab's `header: x y block_id volume`.
  * Without names they are Peridigm's `x y z volume block`. Commas, semicolons and blanks separate; `#` begins a comment; a unit in brackets behind a name is
  * passed over. Known names, whatever their case: id, x, y, z, volume (or area, vol), block_id (or
- * block). Unknown columns are named in a warning.
+ * block). Any other column that holds 0 and 1 alone is a set; what else there is, is named in a
+ * warning.
  *
  * A body is plane where there is no z or all z are equal. Its volumes are divided by the thickness;
  * thickness 0: they are areas. Block b becomes the set `block_b`; all nodes are the set `body` (`plate` in 2D).

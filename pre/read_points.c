@@ -27,13 +27,18 @@ struct table {
     int has[COLUMNS + 1];
     size_t count, room;
     double (*row)[COLUMNS];
+    /* Columns that are not known: sets, where they hold 0 and 1 alone. */
+    size_t n_extra;
+    char *extra_name[MOST_COLUMNS];
+    int is_no_set[MOST_COLUMNS];
+    unsigned char *extra; /* (count x n_extra) */
 };
 
 static const char BETWEEN[] = " \t,;\r\n";
 
 /** Cut a comment off; whether anything is left. */
 static int has_content(char *line) {
-    line[strcspn(line, "#")] = 0;
+    line[strcspn(line, "#\r\n")] = 0;
     return line[strspn(line, BETWEEN)] != 0;
 }
 
@@ -69,9 +74,9 @@ static void read_names(struct table *table, char *line) {
             continue; /* a unit */
         word[strcspn(word, "[(")] = 0;
         enum column column = column_of(word);
-        if (column == UNKNOWN)
-            kr_warn("%s:%zu: the column '%s' is not used", table->path, table->number, word);
         add_column(table, column);
+        if (column == UNKNOWN)
+            table->extra_name[table->n_extra++] = kr_text_copy(word);
     }
     if (!table->has[X] || !table->has[Y] || !table->has[VOLUME])
         kr_stop(KR_EXIT_INPUT, "%s:%zu: expected columns named x, y and volume at the least",
@@ -98,17 +103,28 @@ static double read_number(const struct table *table, char **at, enum column colu
     return value;
 }
 
+/** What stands in a column that is not known: a word of any kind. */
+static void read_extra(struct table *table, char **at, size_t k) {
+    char *from = *at + strspn(*at, BETWEEN);
+    size_t length = strcspn(from, BETWEEN);
+    int is_flag = length == 1 && (*from == '0' || *from == '1');
+    table->is_no_set[k] |= !is_flag;
+    table->extra[(table->count - 1) * table->n_extra + k] = is_flag && *from == '1';
+    *at = from + length;
+}
+
 static void read_row(struct table *table, char *line) {
+    size_t room = table->room, extra = 0;
     KR_GROW(table->row, table->count, table->room);
+    if (table->room > room)
+        table->extra = kr_realloc(table->extra, table->room * table->n_extra, 1);
     double *row = table->row[table->count++];
     char *at = line;
     for (size_t k = 0; k < table->n_columns; k++) {
-        enum column column = table->column[k];
-        double value = column == UNKNOWN && at[strspn(at, BETWEEN)] == 0
-                           ? 0
-                           : read_number(table, &at, column);
-        if (column != UNKNOWN)
-            row[column] = value;
+        if (table->column[k] == UNKNOWN)
+            read_extra(table, &at, extra++);
+        else
+            row[table->column[k]] = read_number(table, &at, table->column[k]);
     }
     at += strspn(at, BETWEEN);
     if (*at)
@@ -206,6 +222,26 @@ static void add_blocks(const struct table *table, struct kr_nodes *nodes) {
     kr_free(block);
 }
 
+/** Sets from the columns that are not known; free what was kept of them. */
+static void add_extra(struct table *table, struct kr_nodes *nodes) {
+    for (size_t e = 0; e < table->n_extra; e++) {
+        if (table->is_no_set[e]) {
+            kr_warn("%s: the column '%s' is not used: it holds more than 0 and 1", table->path,
+                    table->extra_name[e]);
+        } else if (!kr_nodes_set(nodes, table->extra_name[e])) {
+            int64_t *node = KR_NEW(int64_t, nodes->n);
+            size_t count = 0;
+            for (size_t i = 0; i < nodes->n; i++)
+                if (table->extra[i * table->n_extra + e])
+                    node[count++] = (int64_t)i;
+            kr_nodes_add_set(nodes, table->extra_name[e], count,
+                             kr_realloc(node, count, sizeof *node), 0);
+        }
+        kr_free(table->extra_name[e]);
+    }
+    kr_free(table->extra);
+}
+
 struct kr_nodes *kr_points_read(const char *path, double unit, double thickness) {
     struct table table = read_table(path);
     int dim = is_plane(&table) ? 2 : 3;
@@ -220,6 +256,7 @@ struct kr_nodes *kr_points_read(const char *path, double unit, double thickness)
             nodes->position[(size_t)dim * i + (size_t)d] = table.row[i][X + d] * unit;
     }
     add_blocks(&table, nodes);
+    add_extra(&table, nodes);
     kr_free(table.row);
     kr_convert_spacing(nodes);
     kr_convert_order(nodes);

@@ -124,6 +124,8 @@ def inp_lines(path, depth=0):
         stop(f"{path}: more than 20 files include each other")
     with open(path, errors="replace") as file:
         for line in file:
+            if not line.endswith("\n"):
+                note(f"{os.path.basename(path)} does not end with a whole line: it may be cut")
             if line.startswith("**") or not line.strip():
                 continue
             if re.match(r"\*INCLUDE", line, re.I):

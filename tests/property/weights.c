@@ -390,17 +390,18 @@ static void test_exact_shares_need_cells(void **state) {
     kr_check_stops(ask_without_cells, NULL, KR_EXIT_INPUT, "need the cells");
 }
 
-/* Broken bonds count at both ends with their own weights: damage 1 where all are gone. */
+/* Broken bonds count at both ends with their own weights: damage 1 where all are gone, and all the
+ * energy that the body held went with them. */
 static void check_damage(int volume, int correction) {
     struct plate p = plate_make(volume, correction);
     for (int d = 0; d < 2; d++)
         for (size_t i = 0; i < p.nodes->n; i++)
             p.body->u[d][i] = 0.5 * p.bonds->x[d][i];
+    double held = kr_body_energy(p.body), energy = 0;
     kr_body_force(p.body, 1);
-    double energy = 0;
     for (size_t k = 0; k < p.body->broken.count; k++)
         energy += p.body->broken.item[k].energy;
-    assert_true(energy > 0);
+    kr_check_near(energy / held, 1, 1e-12);
     for (size_t i = 0; i < p.nodes->n; i++)
         kr_check_near(kr_bonds_damage(p.bonds, i), 1, 1e-12);
     plate_free(&p);
@@ -413,6 +414,37 @@ static void test_all_broken_is_damage_one(void **state) {
             check_damage(volumes[v], corrections[c]);
 }
 
+/* A stretch along x of just s0: rounding decides which bonds along x break, at each end by itself.
+ * What broke at one end must be gone and counted at both. */
+static void test_both_ends_know_of_a_break(void **state) {
+    struct plate p = plate_make(KR_PARTIAL_VOLUME_EXACT, KR_SURFACE_NONE);
+    double s0 = p.material.critical_stretch, lost = 0, counted = 0;
+    size_t ends = 0, before = p.bonds->count, after = 0;
+    (void)state;
+    for (size_t i = 0; i < p.nodes->n; i++)
+        p.body->u[0][i] = s0 * p.bonds->x[0][i];
+    kr_body_force(p.body, 1);
+    for (int k = 0; k < p.bonds->n_blocks; k++)
+        ends += p.body->by_block[k].count;
+    for (size_t i = 0; i < p.nodes->n; i++)
+        lost += p.bonds->lost_volume[i];
+    for (size_t k = 0; k < p.body->broken.count; k++) {
+        const struct kr_broken *one = &p.body->broken.item[k];
+        counted += one->weight * (p.nodes->volume[one->i] + p.nodes->volume[one->j]);
+        assert_true(one->i < one->j);
+        assert_true(kr_bonds_clear(p.bonds, (size_t)one->i, (size_t)one->j) == 0);
+        assert_true(kr_bonds_clear(p.bonds, (size_t)one->j, (size_t)one->i) == 0);
+    }
+    for (size_t r = 0; r < p.bonds->n_rows; r++)
+        after += (size_t)__builtin_popcount(p.bonds->living[r]);
+    kr_figure("%zu bonds broke, %zu of them at one end alone", p.body->broken.count,
+              2 * p.body->broken.count - ends);
+    assert_true(ends < 2 * p.body->broken.count);
+    assert_int_equal(before - after, 2 * p.body->broken.count);
+    kr_check_near(lost / counted, 1, 1e-12);
+    plate_free(&p);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_exact_shares_fill_the_circle),
@@ -423,6 +455,7 @@ int main(void) {
         cmocka_unit_test(test_full_pull_is_the_integral),
         cmocka_unit_test(test_exact_shares_need_cells),
         cmocka_unit_test(test_all_broken_is_damage_one),
+        cmocka_unit_test(test_both_ends_know_of_a_break),
     };
     kr_run_tests(tests);
 }

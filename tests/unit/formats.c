@@ -88,21 +88,34 @@ static double volume_of(const struct kr_nodes *nodes) {
     return sum;
 }
 
-/** The same nodes and sets, up to `rounding` of the text. */
-static void check_same(const struct kr_nodes *a, const struct kr_nodes *b, double rounding) {
+/** Volume of a set of nodes and its moments about the axes. */
+static void moments_of(const struct kr_nodes *nodes, const struct kr_set *set, double sum[4]) {
+    memset(sum, 0, 4 * sizeof *sum);
+    for (size_t k = 0; k < set->count; k++) {
+        size_t i = (size_t)set->node[k];
+        sum[3] += nodes->volume[i];
+        for (int d = 0; d < nodes->dim; d++)
+            sum[d] += nodes->volume[i] * nodes->position[(size_t)(nodes->dim * (int)i + d)];
+    }
+}
+
+/** The same nodes and sets. Their order may differ where rounding in a text file moves a centroid
+ *  across the limit between two rows, so sets are held against each other by their moments. */
+static void check_same(const struct kr_nodes *a, const struct kr_nodes *b) {
     assert_int_equal(a->n, b->n);
     assert_int_equal(a->n_points, b->n_points);
     assert_int_equal(a->n_sets, b->n_sets);
-    for (size_t i = 0; i < a->n; i++)
-        kr_check_near(a->volume[i], b->volume[i], rounding);
-    for (size_t k = 0; k < a->n * (size_t)a->dim; k++)
-        kr_check_near(a->position[k], b->position[k], rounding);
+    kr_check_near(volume_of(a), volume_of(b), 1e-13);
     for (size_t s = 0; s < a->n_sets; s++) {
         const struct kr_set *other = kr_nodes_set(b, a->set[s].name);
+        double wanted[4], got[4];
         assert_non_null(other);
         assert_int_equal(a->set[s].count, other->count);
-        assert_memory_equal(a->set[s].node, other->node, other->count * sizeof *other->node);
         kr_check_near(a->set[s].measure, other->measure, 1e-14);
+        moments_of(a, &a->set[s], got);
+        moments_of(b, other, wanted);
+        for (int d = 0; d < 4; d++)
+            kr_check_near(got[d], wanted[d], 1e-13);
     }
 }
 
@@ -114,7 +127,7 @@ static void check_versions(const char *script, int dim, int order, double volume
     for (int k = 0; k < 3; k++) {
         path = save_by_gmsh(k == 0 ? 41 : 22, k == 2);
         struct kr_nodes *nodes = nodes_of(path);
-        check_same(nodes, wanted, 1e-14);
+        check_same(nodes, wanted);
         kr_nodes_free(nodes);
         kr_free(path);
     }

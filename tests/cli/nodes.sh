@@ -1,0 +1,278 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# kirsch-nodes on files of other programs (gmsh, meshio, netCDF4): volumes and named sets survive; what
+# it writes is read back by them; faults stop with a sentence.
+build=${BUILD:-build}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+count=0
+python=/usr/bin/python3
+
+# Run a check by name, unless ONLY leaves it out. What it says is shown if it fails.
+check() { # name, command...
+    name=$1
+    shift
+    case "nodes_$name" in *"$ONLY"*) ;; *) return ;; esac
+    count=$((count + 1))
+    if "$@" >"$work/said" 2>&1; then
+        echo "ok $count - $name"
+    else
+        echo "not ok $count - $name"
+        sed 's/^/# /' "$work/said"
+    fi
+}
+
+# The command must end with the code and say the words.
+stops() { # code, words, command...
+    wanted=$1
+    words=$2
+    shift 2
+    "$@" >"$work/stop" 2>&1
+    code=$?
+    cat "$work/stop"
+    [ $code -eq "$wanted" ] || { echo "ended with $code, wanted $wanted"; return 1; }
+    grep -qF -- "$words" "$work/stop" || { echo "wanted: $words"; return 1; }
+}
+
+convert() {
+    "$build/kirsch-nodes" --convert "$@" --output "$work"
+}
+
+# Convert a file; its node file must hold this volume and these sets, each NAME:COUNT[:MEASURE].
+gives() { # file, volume, sets...
+    file=$1
+    shift
+    convert "$work/$file" || return 1
+    $python - "$work/${file%.*}.nodes.h5" "$@" <<'PY'
+import sys
+import h5py
+path, volume, *sets = sys.argv[1:]
+with h5py.File(path) as f:
+    got = f["nodes/volume"][:].sum()
+    assert abs(got - float(volume)) < 1e-12 * abs(got), f"volume {got}"
+    for text in sets:
+        name, count, *measure = text.split(":")
+        assert name in f["sets"], f"no set {name}: {list(f['sets'])}"
+        rows = f["sets"][name]
+        assert len(rows) == int(count), f"{name}: {len(rows)} nodes, wanted {count}"
+        if measure:
+            length = rows.attrs["measure"]
+            assert abs(length - float(measure[0])) < 1e-12, f"{name}: measure {length}"
+    assert len(f["sets"]) == len(sets), list(f["sets"])
+PY
+}
+
+# A plate of 4 x 3 squares and 12 triangles, and a block of 24 hexahedra and 24 wedges.
+cat >"$work/plate.geo" <<'GEO'
+Point(1)={0,0,0,.3}; l[]=Extrude{1,0,0}{Point{1}; Layers{4};};
+s[]=Extrude{0,1,0}{Curve{l[1]}; Layers{3}; Recombine;};
+t[]=Extrude{1,0,0}{Curve{s[2]}; Layers{2};};
+Physical Surface("both",70)={s[1],t[1]}; Physical Surface("squares",3)={s[1]};
+Physical Curve("bottom",11)={l[1]};
+GEO
+cat >"$work/block.geo" <<'GEO'
+Point(1)={0,0,0,.4}; l[]=Extrude{1,0,0}{Point{1}; Layers{4}; Recombine;};
+s[]=Extrude{0,1,0}{Curve{l[1]}; Layers{3}; Recombine;};
+v[]=Extrude{0,0,1}{Surface{s[1]}; Layers{2}; Recombine;};
+t[]=Extrude{1,0,0}{Curve{s[2]}; Layers{2};};
+w[]=Extrude{0,0,1}{Surface{t[1]}; Layers{2}; Recombine;};
+Physical Volume("hex",100)={v[1]}; Physical Volume("all",6)={v[1],w[1]};
+Physical Surface("floor",1)={s[1],t[1]};
+GEO
+for format in msh41 inp unv; do
+    gmsh -2 "$work/plate.geo" -format $format -o "$work/plate.${format%41}" >"$work/log" 2>&1
+    gmsh -3 "$work/block.geo" -format $format -o "$work/block.${format%41}" >"$work/log" 2>&1
+    cp "$work/plate.${format%41}" "$work/p_$format.${format%41}"
+    cp "$work/block.${format%41}" "$work/b_$format.${format%41}"
+done
+check msh_plate gives p_msh41.msh 2 both:24 squares:12 bottom:4:1
+check msh_block gives b_msh41.msh 2 all:48 hex:24 floor:24:2
+check inp_plate_of_gmsh gives p_inp.inp 2 both:24 squares:12 bottom:4:1 Surface5:12 Surface9:12 Line1:4:1
+check inp_block_of_gmsh gives b_inp.inp 2 all:48 hex:24 floor:24:2 Surface5:12:1 Surface31:12:1 \
+    Volume1:24 Volume2:24
+check unv_plate gives p_unv.unv 2 both:24 squares:12 bottom:4:1
+check unv_block gives b_unv.unv 2 all:48 hex:24 floor:24:2
+
+# Abaqus by hand: ranges, sets of sets, sets in two blocks, names in any case, gaps, a reference point.
+cat >"$work/hand.inp" <<'INP'
+*Heading
+** two squares and two triangles of side 2
+*NODE, NSET=EVERY
+ 10, 0., 0.
+ 20, 2., 0.
+ 30, 4., 0.
+ 40, 0., 2.
+ 50, 2., 2.
+ 60, 4., 2.
+ 70, 6., 0.
+ 80, 6., 2.
+*Node
+ 999, 9., 9.
+*Element, type=CPS4R, elset=Quads
+ 7, 10, 20, 50, 40
+ 9, 20, 30, 60, 50
+*Element, type=CPS3, elset=Tris
+ 100, 30, 70, 60
+ 104, 70, 80, 60
+*Nset, nset=Left
+ 10, 40
+*Nset, nset=Floor, generate
+ 10, 30, 10
+*Nset, nset=Floor
+ 70
+*Elset, elset=Mixed
+ 9, 104
+*Elset, elset=All
+ Quads, TRIS
+*Elset, elset=Left
+ 7
+*Nset, nset=Point
+ 50
+INP
+check inp_sets_by_hand gives hand.inp 12 Quads:2 Tris:2 Mixed:2 All:4 Left:1 Left_boundary:1:2 \
+    Floor:3:6 Point:2 EVERY:4:16
+check inp_orphan_is_named stops 0 "the first is point 999 at (9, 9, 0) m" convert "$work/hand.inp"
+sed 's/^ 9, 104/ 9, 105/' "$work/hand.inp" >"$work/bad.inp"
+check inp_unknown_element stops 2 "the set 'Mixed' has the element 105" convert "$work/bad.inp"
+sed 's/CPS4R/XYZ4/' "$work/hand.inp" >"$work/bad.inp"
+check inp_unknown_type stops 2 "elements of type XYZ4 are not read" convert "$work/bad.inp"
+sed 's/^ 100, 30/ 100, 31/' "$work/hand.inp" >"$work/bad.inp"
+check inp_unknown_node stops 2 "an element has the node 31" convert "$work/bad.inp"
+{ printf '*Instance, name=a, part=b\n 1., 0., 0.\n'; cat "$work/hand.inp"; } >"$work/bad.inp"
+check inp_moved_instance stops 2 "*Instance" convert "$work/bad.inp"
+
+# What meshio writes, and an Exodus file with side sets and named blocks by netCDF4.
+$python - "$work" <<'PY' >"$work/log" 2>&1
+import sys
+import meshio, netCDF4, numpy as np
+work = sys.argv[1]
+for name in ("plate", "block"):
+    m = meshio.read(f"{work}/{name}.msh")
+    top = "quad triangle" if name == "plate" else "hexahedron wedge"
+    cells = [(c.type, c.data) for c in m.cells if c.type in top.split()]
+    data = {"Material": [np.full(len(d), 3 + k) for k, (_, d) in enumerate(cells)]}
+    for end in ("vtu", "vtk", "xdmf", "bdf", "avs"):
+        meshio.write(f"{work}/{name}_m.{end}", meshio.Mesh(m.points, cells, cell_data=data))
+    floor = np.flatnonzero(m.points[:, 1 if name == "plate" else 2] == 0)
+    med = meshio.Mesh(m.points, cells, point_data={"point_tags": np.isin(np.arange(len(m.points)), floor) * 2},
+                      cell_data={"cell_tags": [np.full(len(d), -6 - k) for k, (_, d) in enumerate(cells)]})
+    med.point_tags = {2: ["floor"]}
+    med.cell_tags = {-6: ["first", "all"], -7: ["all"]}
+    meshio.write(f"{work}/{name}_m.med", med)
+with netCDF4.Dataset(f"{work}/hexes.e", "w", format="NETCDF3_64BIT_OFFSET") as nc:
+    for key, n in dict(num_nodes=12, num_dim=3, num_elem=2, num_el_blk=2, num_node_sets=1, num_side_sets=1,
+                       len_name=33, num_el_in_blk1=1, num_el_in_blk2=1, num_nod_per_el1=8,
+                       num_nod_per_el2=8, num_nod_ns1=4, num_side_ss1=2).items():
+        nc.createDimension(key, n)
+    p = np.array([(x, y, z) for z in (0., 1.) for y in (0., 1.) for x in (0., 1., 2.)])
+    for d, axis in enumerate("xyz"):
+        nc.createVariable("coord" + axis, "f8", ("num_nodes",))[:] = p[:, d]
+    for k in (1, 2):
+        v = nc.createVariable(f"connect{k}", "i4", (f"num_el_in_blk{k}", f"num_nod_per_el{k}"))
+        v.elem_type = "HEX8"
+        v[:] = np.array([[0, 1, 4, 3, 6, 7, 10, 9]]) + k
+    for key, dim, ids in (("eb_prop1", "num_el_blk", [10, 20]), ("ns_prop1", "num_node_sets", [5]),
+                          ("ss_prop1", "num_side_sets", [8])):
+        nc.createVariable(key, "i4", (dim,))[:] = ids
+    names = nc.createVariable("eb_names", "S1", ("num_el_blk", "len_name"))
+    names[0, :5] = np.frombuffer(b"steel", "S1")
+    nc.createVariable("node_ns1", "i4", ("num_nod_ns1",))[:] = [1, 4, 7, 10]
+    nc.createVariable("elem_ss1", "i4", ("num_side_ss1",))[:] = [1, 2]
+    nc.createVariable("side_ss1", "i4", ("num_side_ss1",))[:] = [6, 6]
+PY
+for end in vtu vtk xdmf; do
+    check ${end}_plate gives plate_m.$end 2 Material_3:12 Material_4:12
+    check ${end}_block gives block_m.$end 2 Material_3:24 Material_4:24
+done
+check med_plate gives plate_m.med 2 first:12 all:24 floor:6:2
+check med_block gives block_m.med 2 first:24 all:48 floor:24:2
+check avs_plate gives plate_m.avs 2 material_3:12 material_4:12
+check nastran_plate gives plate_m.bdf 2
+check nastran_block gives block_m.bdf 2
+check exodus_block gives hexes.e 2 steel:1 block_20:1 nodeset_5:1:1 sideset_8:2:2
+
+# Bodies of CAD, in millimetres, through gmsh.
+cat >"$work/cad.geo" <<'GEO'
+SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 20, 10, 10};
+GEO
+gmsh -0 "$work/cad.geo" -format step -o "$work/cad.step" >"$work/log" 2>&1
+cat >"$work/case.yaml" <<'DECK'
+geometry: {width: 2 m, height: 1 m}
+mesh: {spacing: 5 mm}
+nodes: {horizon: 20 mm, surface_correction: none}
+material: {model: plane-stress, youngs_modulus: 1 GPa, density: 1000 kg/m3}
+solver: {end_time: 1 us}
+DECK
+"$build/kirsch-gmsh" "$work/cad.step" "$work/cad.msh" 0.005 >"$work/log" 2>&1
+check step_in_metres sh -c "'$build/kirsch-nodes' --convert '$work/cad.msh' --output '$work' | grep -q 'volume 2000 mm^3'"
+check step_needs_a_spacing stops 2 "mesh.spacing" convert "$work/cad.step"
+check solids_need_a_model stops 2 "is a mesh of solids" "$build/kirsch-nodes" "$work/b_msh41.msh" \
+    "$work/case.yaml" --output "$work/out"
+
+# Writing: Exodus by netCDF4, VTU by meshio, text by ourselves.
+written() {
+    convert "$work/b_msh41.msh" --write peridigm,exodus,vtu,csv || return 1
+    convert "$work/p_msh41.msh" --write vtu,dat,peridigm --thickness "10 mm" || return 1
+    $python - "$work" <<'PY'
+import sys
+import h5py, meshio, netCDF4, numpy as np
+work = sys.argv[1]
+with h5py.File(f"{work}/b_msh41.nodes.h5") as f:
+    volume, position = f["nodes/volume"][:], f["nodes/position"][:]
+    floor = f["sets/floor"][:]
+vtu = meshio.read(f"{work}/b_msh41.vtu")
+assert {c.type: len(c.data) for c in vtu.cells} == {"hexahedron": 24, "wedge": 24} or \
+    sum(len(c.data) for c in vtu.cells) == 48
+assert np.allclose(np.concatenate(vtu.cell_data["Volume"]).sum(), 2, atol=1e-13)
+assert np.concatenate(vtu.cell_data["floor"]).sum() == len(floor)
+with netCDF4.Dataset(f"{work}/b_msh41.e") as nc:
+    assert nc["connect1"].elem_type == "SPHERE"
+    assert np.array_equal(nc["attrib1"][:, 1], volume)
+    assert np.array_equal(nc["coordx"][:], position[:, 0])
+    names = [b"".join(n.filled(b"")).decode().strip("\0") for n in nc["ns_names"][:]]
+    assert np.array_equal(nc[f"node_ns{names.index('floor') + 1}"][:], floor + 1)
+text = np.loadtxt(f"{work}/b_msh41.txt")
+assert np.array_equal(text[:, 3], volume) and np.array_equal(text[:, :3], position)
+assert np.array_equal(np.loadtxt(f"{work}/b_msh41_ns_floor.txt", dtype=int), floor + 1)
+plate = np.loadtxt(f"{work}/p_msh41.txt")
+assert abs(plate[:, 3].sum() - 0.02) < 1e-15, plate[:, 3].sum()
+assert len(np.loadtxt(f"{work}/nodes.dat")) == 24
+PY
+}
+check what_is_written_is_read written
+round_trip() {
+    convert "$work/b_msh41.msh" --write csv || return 1
+    cp "$work/b_msh41.csv" "$work/again.csv"
+    gives again.csv 2 body:48 all:48 hex:24 floor:24 block_1:48
+}
+check csv_round_trip round_trip
+check unit sh -c "'$build/kirsch-nodes' --convert '$work/p_msh41.msh' --output '$work' --unit mm | grep -q 'area 2 mm^2'"
+
+# Faults.
+check no_such_file stops 2 "cannot be read: No such file" convert "$work/none.vtu"
+check no_format stops 2 "--write: found 'stl'" convert "$work/p_msh41.msh" --write stl
+check no_unit stops 2 "--unit: found 'kg'" convert "$work/p_msh41.msh" --unit kg
+check unknown_option stops 2 "--mend" convert "$work/p_msh41.msh" --mend
+check two_meshes stops 2 "expected one mesh" convert "$work/p_msh41.msh" "$work/b_msh41.msh"
+# Any file cut at any place: a sentence and exit 2, never a crash.
+cut_files() { # file
+    size=$(stat -c %s "$work/$1")
+    for k in 1 2 3 4 5 6; do
+        head -c $((k * size / 7)) "$work/$1" >"$work/cut.${1##*.}"
+        convert "$work/cut.${1##*.}" >"$work/cut.log" 2>&1
+        code=$?
+        # Abaqus's files have no end: one cut behind its cells is a smaller mesh, and looked at askance.
+        if [ $code -eq 0 ] && grep -q 'does not end with a whole line' "$work/cut.log"; then
+            continue
+        fi
+        if [ $code -ne 2 ]; then
+            echo "$1 cut at $k/7 ended with $code"
+            cat "$work/cut.log"
+            return 1
+        fi
+    done
+}
+for file in p_unv.unv plate_m.vtu hexes.e plate_m.med p_inp.inp; do
+    check cut_${file##*.} cut_files $file
+done
+echo "1..$count"
