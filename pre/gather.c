@@ -13,6 +13,33 @@
 
 /* ---- what readers add ---- */
 
+void kr_gather_expect_nodes(struct kr_gather *gather, size_t count) {
+    size_t room = gather->n_nodes + count;
+    if (room <= gather->nodes_room || room <= gather->points_room)
+        return;
+    gather->nodes_room = gather->points_room = room;
+    gather->node = kr_realloc(gather->node, room, sizeof *gather->node);
+    gather->point = kr_realloc(gather->point, 3 * room, sizeof *gather->point);
+}
+
+static void set_pile_room(struct kr_pile *pile, size_t room) {
+    pile->room = room;
+    pile->tag = kr_realloc(pile->tag, pile->room, sizeof *pile->tag);
+    pile->type = kr_realloc(pile->type, pile->room, sizeof *pile->type);
+    pile->first = kr_realloc(pile->first, pile->room, sizeof *pile->first);
+}
+
+void kr_gather_expect_elements(struct kr_gather *gather, int type, size_t count) {
+    const struct kr_element *kind = kr_element(type);
+    struct kr_pile *pile = &gather->pile[kind->dim];
+    if (pile->count + count > pile->room)
+        set_pile_room(pile, pile->count + count);
+    if (pile->n_nodes + kind->nodes * count > pile->nodes_room) {
+        pile->nodes_room = pile->n_nodes + kind->nodes * count;
+        pile->node = kr_realloc(pile->node, pile->nodes_room, sizeof *pile->node);
+    }
+}
+
 void kr_gather_node(struct kr_gather *gather, size_t tag, const double point[3]) {
     if (gather->n_nodes == gather->points_room) {
         gather->points_room = gather->points_room ? 2 * gather->points_room : 64;
@@ -24,18 +51,11 @@ void kr_gather_node(struct kr_gather *gather, size_t tag, const double point[3])
     gather->n_nodes++;
 }
 
-static void grow_pile(struct kr_pile *pile) {
-    pile->room = pile->room ? 2 * pile->room : 64;
-    pile->tag = kr_realloc(pile->tag, pile->room, sizeof *pile->tag);
-    pile->type = kr_realloc(pile->type, pile->room, sizeof *pile->type);
-    pile->first = kr_realloc(pile->first, pile->room, sizeof *pile->first);
-}
-
 size_t kr_gather_element(struct kr_gather *gather, int type, size_t tag, const size_t *node) {
     const struct kr_element *kind = kr_element(type);
     struct kr_pile *pile = &gather->pile[kind->dim];
     if (pile->count == pile->room)
-        grow_pile(pile);
+        set_pile_room(pile, pile->room ? 2 * pile->room : 64);
     if (pile->n_nodes + kind->nodes > pile->nodes_room) {
         pile->nodes_room = 2 * pile->nodes_room + 256;
         pile->node = kr_realloc(pile->node, pile->nodes_room, sizeof *pile->node);
@@ -127,14 +147,17 @@ static int by_number(const void *a, const void *b) {
 
 /** The order of a pile by ascending numbers; stops where one stands twice. */
 static size_t *order_of(const struct kr_gather *gather, const struct kr_pile *pile) {
-    struct numbered *item = KR_NEW(struct numbered, pile->count);
     size_t *order = KR_NEW(size_t, pile->count), k = 1;
     for (size_t i = 0; i < pile->count; i++)
-        item[i] = (struct numbered){pile->tag[i], i};
-    while (k < pile->count && item[k].tag > item[k - 1].tag)
+        order[i] = i;
+    while (k < pile->count && pile->tag[k] > pile->tag[k - 1])
         k++;
-    if (k < pile->count)
-        qsort(item, pile->count, sizeof *item, by_number);
+    if (k >= pile->count)
+        return order;
+    struct numbered *item = KR_NEW(struct numbered, pile->count);
+    for (size_t i = 0; i < pile->count; i++)
+        item[i] = (struct numbered){pile->tag[i], i};
+    qsort(item, pile->count, sizeof *item, by_number);
     for (k = 0; k < pile->count; k++) {
         if (k && item[k].tag == item[k - 1].tag)
             kr_stop(KR_EXIT_INPUT, "%s: element %zu stands twice in the file", gather->path,

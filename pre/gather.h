@@ -39,6 +39,10 @@ struct kr_gather {
     int merges; /* an element in two groups stands twice in the file, as in MSH 2.2 */
 };
 
+/** Make room for so many more nodes, or elements of a type: growing step by step costs more. */
+void kr_gather_expect_nodes(struct kr_gather *gather, size_t count);
+void kr_gather_expect_elements(struct kr_gather *gather, int type, size_t count);
+
 void kr_gather_node(struct kr_gather *gather, size_t tag, const double point[3]);
 
 /** Add an element with its nodes' numbers; returns its place in the pile of its dimension. */

@@ -112,7 +112,7 @@ void kr_gmsh_fill(size_t n_regions, struct kr_gmsh_region *region,
     size_t *order = by_area(n_regions, region), started = 0;
     while (started < n_regions || work.running) {
         if (started < n_regions && work.running < children)
-            start(&work, order[started++], 0);
+            start(&work, order[started++], options->first);
         else
             finish_one(&work);
     }

@@ -14,10 +14,14 @@
 #include "base/memory.h"
 #include "boxes.h"
 #include "builder.h"
+#include "fill.h"
 #include "region.h"
 
 #include <math.h>
 #include <string.h>
+
+/* Area, in spacings squared, up to which the whole plate is filled by the most even method. */
+static const double MOST_PACKED = 15000;
 
 /** What every step below needs. */
 struct filling {
@@ -240,7 +244,11 @@ struct kr_mesh *kr_near_boundary_mesh(const struct kr_plate *plate,
     f.origin = kr_alloc(f.regions.count, sizeof *f.origin);
     for (size_t r = 0; r < f.regions.count; r++)
         ask(&f, r);
-    kr_gmsh_fill(f.regions.count, f.asked, &plate->gmsh);
+    struct kr_gmsh_options options = plate->gmsh;
+    /* Packing and blossom take far more than linear time: minutes for 35 000 cells in one region. */
+    if (plate->grid == KR_GRID_FREE && f.polygon.area > MOST_PACKED)
+        options.first = kr_fill_n_methods - 1;
+    kr_gmsh_fill(f.regions.count, f.asked, &options);
     report->polygonal_area = f.polygon.area * body->lattice.spacing * body->lattice.spacing;
     struct kr_mesh *mesh = assemble(&f, marked, report);
 

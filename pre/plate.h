@@ -49,6 +49,7 @@ struct kr_plate_report {
     struct kr_plate_region *region;
     double exact_area;     /* m^2: of the curves */
     double polygonal_area; /* m^2: of the polygons, or squares, that the cells fill */
+    double conformity; /* m: largest distance of an edge's middle or end from its true curve */
     double seconds;
 };
 

@@ -11,13 +11,19 @@
 #include <math.h>
 #include <string.h>
 
-static double area_of(const struct kr_mesh *mesh, size_t cell, double *corner) {
+static double area_of(const struct kr_mesh *mesh, size_t cell, double *corner,
+                      double centroid[2]) {
     size_t n = mesh->first[cell + 1] - mesh->first[cell];
-    double centroid[2];
     for (size_t k = 0; k < n; k++)
         memcpy(corner + 2 * k, mesh->point + 3 * mesh->vertex[mesh->first[cell] + k],
                2 * sizeof *corner);
     return kr_cell_polygon(n, corner, centroid);
+}
+
+/** Distance, in spacings, from the nearest centre of a square of the lattice. */
+static double shift_of(const double place[2], double spacing) {
+    double x = place[0] / spacing - 0.5, y = place[1] / spacing - 0.5;
+    return hypot(x - nearbyint(x), y - nearbyint(y));
 }
 
 struct kr_quality kr_quality_of(const struct kr_mesh *mesh, size_t from, size_t to,
@@ -33,7 +39,8 @@ struct kr_quality kr_quality_of(const struct kr_mesh *mesh, size_t from, size_t 
     double *corner = KR_NEW(double, 2 * most_corners);
     q.least = INFINITY;
     for (size_t c = from; c < to; c++) {
-        double area = area_of(mesh, c, corner), sum = q.area + area;
+        double centroid[2], area = area_of(mesh, c, corner, centroid), sum = q.area + area;
+        q.shift = fmax(q.shift, shift_of(centroid, spacing));
         lost += fabs(q.area) >= area ? (q.area - sum) + area : (area - sum) + q.area;
         q.area = sum;
         q.least = fmin(q.least, area / (spacing * spacing));
@@ -44,7 +51,7 @@ struct kr_quality kr_quality_of(const struct kr_mesh *mesh, size_t from, size_t 
     q.n_cells = to - from;
     double mean = q.area / (double)q.n_cells;
     for (size_t c = from; c < to; c++) {
-        double off = area_of(mesh, c, corner) - mean;
+        double centroid[2], off = area_of(mesh, c, corner, centroid) - mean;
         squares += off * off;
     }
     q.mean = mean / (spacing * spacing);
@@ -55,8 +62,8 @@ struct kr_quality kr_quality_of(const struct kr_mesh *mesh, size_t from, size_t 
 
 static void print_cells(const char *which, const struct kr_quality *q) {
     if (q->n_cells)
-        kr_say("  %-12s %9zu %9zu   %.4f   %.4f   %.4f   %.4f", which, q->n_cells, q->n_triangles,
-               q->least, q->mean, q->most, q->variation);
+        kr_say("  %-12s %9zu %9zu   %.4f   %.4f   %.4f   %.4f    %.4f", which, q->n_cells, q->n_triangles,
+               q->least, q->mean, q->most, q->variation, q->shift);
 }
 
 void kr_quality_print(const struct kr_mesh *mesh, const struct kr_plate *plate,
@@ -73,15 +80,17 @@ void kr_quality_print(const struct kr_mesh *mesh, const struct kr_plate *plate,
     kr_say("  %zu points, %zu boundary edges in %zu named groups, %.2f s", mesh->n_points,
            mesh->n_edges, mesh->n_groups, report->seconds);
     kr_say("  %-12s %9s %9s   area over spacing squared", "", "", "");
-    kr_say("  %-12s %9s %9s   %-6s   %-6s   %-6s   %s", "", "cells", "triangles", "least", "mean",
-           "most", "scatter");
+    kr_say("  %-12s %9s %9s   %-6s   %-6s   %-6s   %-7s   %s", "", "cells", "triangles", "least",
+           "mean", "most", "scatter", "shift");
     print_cells("all", &all);
     print_cells("lattice", &lattice);
-    print_cells("boxes", &boxes);
+    print_cells("near edges", &boxes);
     kr_say("  area %.9g mm^2; off by %.1e from the polygons that the cells fill, by %.1e from "
            "the exact curves",
            1e6 * all.area, all.area / report->polygonal_area - 1,
            all.area / report->exact_area - 1);
+    kr_say("  edges off the true curves by %.2g spacings at most; %.0f MB of memory",
+           report->conformity / dx, 1e-6 * (double)kr_memory_peak());
     for (size_t r = 0; r < report->n_regions; r++)
         kr_say("  region %s: %zu cells, %zu triangles, %.2f s, %s", report->region[r].name,
                report->region[r].n_cells, report->region[r].n_triangles, report->region[r].seconds,

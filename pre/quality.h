@@ -12,6 +12,7 @@ struct kr_quality {
     size_t n_cells, n_triangles;
     double area;              /* m^2: sum over the cells */
     double least, mean, most; /* area of a cell over the spacing squared */
+    double shift;             /* largest distance of a centroid from its lattice place, spacings */
     double variation;         /* standard deviation of the areas over their mean */
 };
 

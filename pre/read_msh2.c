@@ -14,6 +14,7 @@ void kr_msh2_nodes(struct kr_msh *msh) {
     size_t n = kr_scan_count(scan, 4, "the number of nodes");
     scan->is_binary = was_binary;
     scan->at += was_binary;
+    kr_gather_expect_nodes(&msh->gather, n);
     for (size_t k = 0; k < n; k++) {
         double point[3];
         int tag = kr_scan_int(scan, "the number of a node");

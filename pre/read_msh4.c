@@ -62,6 +62,7 @@ void kr_msh4_nodes(struct kr_msh *msh) {
     size_t n = kr_scan_count(scan, 4, "the number of nodes"), left = n;
     kr_scan_size(scan, "the least number of a node");
     kr_scan_size(scan, "the greatest number of a node");
+    kr_gather_expect_nodes(&msh->gather, n);
     for (size_t b = 0; b < blocks; b++)
         read_nodes_of_block(msh, &left);
     if (left)
@@ -93,6 +94,7 @@ static void read_block(struct kr_msh *msh, size_t *left) {
     if (dim != kind->dim)
         kr_scan_bad(scan, "elements of type %d cannot lie on an entity of dimension %d", type, dim);
     const struct kr_msh_entity *entity = find_entity(msh, dim, tag);
+    kr_gather_expect_elements(&msh->gather, type, count);
     for (size_t k = 0; k < count; k++) {
         size_t number = kr_scan_size(scan, "the number of an element"), node[KR_MOST_NODES];
         for (size_t c = 0; c < kind->nodes; c++)

@@ -82,9 +82,25 @@ static int ended_well(const struct kr_scan *scan, const char *end) {
            (end == scan->data + scan->size || isspace((unsigned char)*end));
 }
 
+/** A plain number of up to 18 digits, nearly all there are; 0 for any other text. */
+static int short_integer(struct kr_scan *scan, long long *value) {
+    const char *begin = scan->data + scan->at, *at = begin;
+    long long sum = 0;
+    while (*at >= '0' && *at <= '9' && at - begin < 18)
+        sum = 10 * sum + (*at++ - '0');
+    if (at == begin || (*at != ' ' && *at != '\n'))
+        return 0;
+    *value = sum;
+    scan->at += (size_t)(at - begin);
+    return 1;
+}
+
 static long long text_integer(struct kr_scan *scan, const char *what) {
     char *end;
+    long long plain;
     skip_blank(scan);
+    if (short_integer(scan, &plain))
+        return plain;
     errno = 0;
     long long value = strtoll(scan->data + scan->at, &end, 10);
     if (errno || !ended_well(scan, end))

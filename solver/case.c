@@ -90,6 +90,9 @@ static const struct kr_deck_key geometry_keys[] = {
 };
 
 static const struct kr_deck_key mesh_keys[] = {
+    {"file", KR_DECK_TEXT, AT(mesh_file), .fallback = "",
+     .text = "A mesh from elsewhere, instead of one by kirsch-mesh; a path from the deck's folder. What "
+             "can be read: [formats.md](formats.md#meshes-from-elsewhere)."},
     {"grid", KR_DECK_CHOICE, AT(grid), .words = KR_GRID_WORDS,
      .fallback = "near-boundary",
      .text = "`near-boundary`: a square lattice, cut out around each hole and filled there by gmsh "

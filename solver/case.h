@@ -108,6 +108,7 @@ struct kr_case {
     struct kr_case_pores pores; /* count 0: none */
 
     /* mesh */
+    const char *mesh_file; /* a mesh from elsewhere, instead of one by kirsch-mesh; NULL: none */
     int grid; /* enum kr_grid */
     double spacing;    /* m */
     double padding;    /* m: from a hole to the rim of its box; 0: the horizon */

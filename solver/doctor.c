@@ -12,6 +12,7 @@
 #include "base/child.h"
 #include "kernel.h"
 
+#include <ctype.h>
 #include <fcntl.h>
 #include <math.h>
 #include <omp.h>
@@ -75,12 +76,14 @@ static int check_libraries(void) {
 }
 
 static int check_python(void) {
-    static char *const modules[] = {"numpy", "h5py", "matplotlib"};
+    static char *const modules[] = {"numpy", "h5py", "matplotlib", "meshio", "netCDF4"};
     int good = 1;
     for (size_t k = 0; k < sizeof modules / sizeof modules[0]; k++) {
         char *import = kr_text("import %s", modules[k]);
         char *what = kr_text("python3: %s", modules[k]);
         char *cure = kr_text("apt-get install python3-%s", modules[k]);
+        for (char *c = cure; *c; c++) /* Debian's names are in small letters */
+            *c = (char)tolower((unsigned char)*c);
         good &= report(what, runs((char *[]){"/usr/bin/python3", "-c", import, NULL}), cure);
         kr_free(import);
         kr_free(what);

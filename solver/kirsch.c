@@ -51,13 +51,14 @@ static const struct step steps[] = {
      {"run.h5", "run/crack.h5", "tips.csv", "pores.txt"},
      {"pictures/damage.png"}},
 };
-enum { STEPS = sizeof steps / sizeof steps[0] };
+enum { PORES, MESH, NODES, STEPS = sizeof steps / sizeof steps[0] };
 
 /* What the steps work on. */
 struct job {
     struct kr_case_arguments arguments;
     struct kr_case c;
     struct kr_deck *deck;
+    char *mesh; /* path of a mesh from elsewhere, or NULL */
     int force;
 };
 
@@ -68,22 +69,29 @@ static uint64_t hash_text(uint64_t hash, const char *text) {
 }
 
 /* Size and time of a file; a missing one is as good an answer. */
-static uint64_t hash_file(uint64_t hash, const struct kr_case *c, const char *name) {
+static uint64_t hash_path(uint64_t hash, const char *path) {
     struct stat state;
-    char *path = kr_case_file(c, name);
     int64_t what[3] = {-1, 0, 0};
     if (stat(path, &state) == 0) {
         what[0] = state.st_size;
         what[1] = state.st_mtim.tv_sec;
         what[2] = state.st_mtim.tv_nsec;
     }
-    kr_free(path);
     return kr_hash(hash, what, sizeof what);
+}
+
+static uint64_t hash_file(uint64_t hash, const struct kr_case *c, const char *name) {
+    char *path = kr_case_file(c, name);
+    hash = hash_path(hash, path);
+    kr_free(path);
+    return hash;
 }
 
 static uint64_t stamp_of(const struct job *job, const struct step *step) {
     char *sections = kr_deck_resolved(job->deck, step->sections);
     uint64_t hash = hash_text(hash_text(KR_HASH_BEGIN, kr_version()), sections);
+    if (job->mesh && step == &steps[NODES])
+        hash = hash_path(hash, job->mesh);
     for (int k = 0; k < 4 && step->inputs[k]; k++)
         hash = hash_file(hash, &job->c, step->inputs[k]);
     kr_free(sections);
@@ -136,7 +144,7 @@ static void write_stamp(const struct job *job, const struct step *step, const ch
 /* The program with the options that this one was given. */
 static const char **command_of(const struct job *job, const char *program) {
     const struct kr_case_arguments *a = &job->arguments;
-    const char **word = KR_NEW(const char *, 9 + 2 * a->n_set);
+    const char **word = KR_NEW(const char *, 10 + 2 * a->n_set);
     size_t n = 0;
     word[n++] = program;
     word[n++] = a->deck;
@@ -155,6 +163,12 @@ static const char **command_of(const struct job *job, const char *program) {
     return word;
 }
 
+static void append(const char **command, const char *word) {
+    while (*command)
+        command++;
+    *command = word;
+}
+
 /* Whether the step was begun with just these inputs and left a checkpoint. */
 static int can_resume(const struct job *job, const struct step *step) {
     char *path = kr_case_file(&job->c, "checkpoint.h5");
@@ -169,12 +183,10 @@ static void run_step(const struct job *job, const struct step *step) {
     char *program = kr_child_beside(step->program);
     const char **command = command_of(job, program);
     int status;
-    if (can_resume(job, step)) {
-        size_t n = 0;
-        while (command[n])
-            n++;
-        command[n] = "--resume";
-    }
+    if (can_resume(job, step))
+        append(command, "--resume");
+    if (job->mesh && step == &steps[NODES])
+        append(command, job->mesh);
     write_stamp(job, step, ".begun");
     kr_say("%s", step->program);
     signal(SIGINT, SIG_IGN); /* Ctrl-C is the step's business: it may want to leave a checkpoint */
@@ -203,7 +215,7 @@ static void run_steps(const struct job *job) {
     int behind = job->force;
     for (int k = 0; k < STEPS; k++) {
         const struct step *step = &steps[k];
-        if (k == 0 && !job->c.pores.count)
+        if ((k == PORES && !job->c.pores.count) || (k <= MESH && job->mesh))
             continue;
         if (!behind && is_up_to_date(job, step)) {
             kr_say("%s is up to date", step->program);
@@ -285,10 +297,7 @@ static void explain(const struct job *job) {
     if (access(nodes, R_OK) == 0) {
         char *program = kr_child_beside("kirsch-solve");
         const char **command = command_of(job, program);
-        size_t n = 0;
-        while (command[n])
-            n++;
-        command[n] = "--explain";
+        append(command, "--explain");
         execv(program, (char **)command);
         kr_stop(KR_EXIT_LIBRARY, "cannot start %s: %s", program, strerror(errno));
     }
@@ -310,6 +319,10 @@ int main(int argc, char **argv) {
     kr_case_arguments(argc, argv, usage, &job.arguments);
     take_own_arguments(&job);
     job.deck = kr_case_open(&job.arguments, &job.c);
+    if (job.c.mesh_file && *job.c.mesh_file)
+        job.mesh = job.c.mesh_file[0] == '/'
+                       ? kr_text_copy(job.c.mesh_file)
+                       : kr_text("%s/%s", kr_deck_folder(job.deck), job.c.mesh_file);
     if (job.arguments.explain) {
         explain(&job);
     } else {
@@ -318,6 +331,7 @@ int main(int argc, char **argv) {
         print_paths(&job);
     }
     kr_deck_close(job.deck);
+    kr_free(job.mesh);
     kr_free(job.arguments.set);
     kr_free(job.arguments.left);
     return KR_EXIT_OK;

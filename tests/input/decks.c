@@ -64,7 +64,7 @@ static const struct row {
      "case.yaml:10:3: mesh.denstiy: unknown key; did you mean 'material.density'?\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_unknown_key_far_from_all", "  grid: uniform", "  wibble: 3", NULL, NULL,
-     "case.yaml:9:3: mesh.wibble: unknown key; known here: grid, spacing, padding, lloyd_steps\n"
+     "case.yaml:9:3: mesh.wibble: unknown key; known here: file, grid, spacing, padding, lloyd_steps\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_unknown_section", "track:", "tracks:", NULL, NULL,
      "case.yaml:29:1: tracks: unknown key; did you mean 'track'?\n"

@@ -407,14 +407,14 @@ static void plates_that_cannot_be_meshed_stop(void **unused) {
     (void)unused;
     struct kr_case_hole far = {{8e-3, 2e-3}, 1e-3};
     struct bad_plate outside = {{{{-3e-3, 2e-3}, 1e-3}, far}, 0.1e-3, 0.3e-3, KR_GRID_UNIFORM};
-    struct bad_plate kiss = {{{{6e-3, 2e-3}, 1e-3}, far}, 0.1e-3, 0.3e-3, KR_GRID_NEAR_BOUNDARY};
+    struct bad_plate kiss = {{{{8e-3, 4e-3}, 1e-3}, far}, 0.1e-3, 0.3e-3, KR_GRID_NEAR_BOUNDARY};
     struct bad_plate narrow = {{{{3e-3, 2e-3}, 1e-3}, far}, 0.1e-3, 0.05e-3, KR_GRID_NEAR_BOUNDARY};
     struct bad_plate misfit = {{{{3e-3, 2e-3}, 1e-3}, far}, 0.03e-3, 0.3e-3, KR_GRID_UNIFORM};
     struct bad_plate tiny = {{{{3.1e-3, 2e-3}, 0.02e-3}, far}, 0.1e-3, 0.3e-3, KR_GRID_UNIFORM};
     struct bad_plate flat = {{{{3e-3, 2e-3}, 0}, far}, 0.1e-3, 0.3e-3, KR_GRID_NEAR_BOUNDARY};
     struct bad_plate alone = {{{{3e-3, 2e-3}, 1e-3}, far}, 0.1e-3, 0.3e-3, KR_GRID_NEAR_BOUNDARY};
     kr_check_stops(mesh_bad, &outside, 2, "hole_1 lies outside the plate");
-    kr_check_stops(mesh_bad, &kiss, 2, "touch there without crossing");
+    kr_check_stops(mesh_bad, &kiss, 2, "two edges come so near each other that sides of 0.1 mm cross");
     kr_check_stops(mesh_bad, &narrow, 2, "a padding of 0.05 mm is below the spacing of 0.1 mm");
     kr_check_stops(mesh_bad, &misfit, 2, "cannot be cut into whole squares of 0.03 mm");
     kr_check_stops(mesh_bad, &tiny, 2, "hole_1 holds the centre of no cell");

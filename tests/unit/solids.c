@@ -121,6 +121,32 @@ static void faces_have_areas(void **unused) {
     kr_check_near(kr_cell_face(3, triangle, middle), 6, 1e-14);
 }
 
+static double paraboloid(double x, double y) {
+    return 0.3 + 0.2 * x - 0.1 * y + 0.5 * x * x + 0.7 * x * y - 0.4 * y * y;
+}
+
+/** Shape functions of second order follow a paraboloid exactly, so the middle lies on it. */
+static void middles_lie_on_a_paraboloid(void **unused) {
+    static const double around[8][2] = {{-1, -1}, {0, -1}, {1, -1}, {1, 0},
+                                        {1, 1},   {0, 1},  {-1, 1}, {-1, 0}};
+    static const double triangle[6][2] = {{0, 0}, {0.5, 0}, {1, 0}, {0.5, 0.5}, {0, 1}, {0, 0.5}};
+    double point[24], middle[3];
+    (void)unused;
+    for (size_t n = 6; n <= 8; n += 2) {
+        for (size_t k = 0; k < n; k++) {
+            const double *p = n == 8 ? around[k] : triangle[k];
+            point[3 * k] = p[0];
+            point[3 * k + 1] = p[1];
+            point[3 * k + 2] = paraboloid(p[0], p[1]);
+        }
+        kr_cell_face(n, point, middle);
+        double at = n == 8 ? 0 : 1.0 / 3;
+        kr_check_near(middle[0], at, 1e-15);
+        kr_check_near(middle[1], at, 1e-15);
+        kr_check_near(middle[2], paraboloid(at, at), 1e-15);
+    }
+}
+
 /* ---- the mesh ---- */
 
 /** Two cubes side by side along x, with the face x = 0 in a group. */
@@ -241,6 +267,7 @@ int main(void) {
         cmocka_unit_test(warped_faces_are_the_mean_of_both_diagonals),
         cmocka_unit_test(neighbours_agree_on_a_warped_face),
         cmocka_unit_test(faces_have_areas),
+        cmocka_unit_test(middles_lie_on_a_paraboloid),
         cmocka_unit_test(faults_of_solids_are_found),
         cmocka_unit_test(collapsed_hexahedra_are_wedges),
         cmocka_unit_test(solids_become_nodes),
