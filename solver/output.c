@@ -178,7 +178,7 @@ int kr_output_due(const struct kr_output *o, long step) {
 
 /* ---- one output ---- */
 
-/* Three components in 2D, too: ParaView warps by nothing less, and packed zeros cost nothing. */
+/* Three components in 2D, too: ParaView warps by nothing less. */
 static void write_vectors(struct kr_output *o, struct kr_h5 *file, const char *name,
                           double *const from[3]) {
     for (size_t i = 0; i < o->nodes->n; i++)
@@ -193,9 +193,9 @@ static void write_fields(struct kr_output *o, const struct kr_body *body,
     struct kr_h5 *file = kr_h5_create(path, "kirsch output", 1);
     kr_h5_set_double(file, "/", "time", t);
     kr_h5_set_int64(file, "/", "step", step);
-    kr_h5_pack(file, 1);
     write_vectors(o, file, "/Displacement", body->u);
     write_vectors(o, file, "/Velocity", ledger->v);
+    kr_h5_pack(file, 1); /* worth it for damage, which is mostly 0; vectors hardly shrink */
     for (size_t i = 0; i < body->n; i++)
         o->row[i] = kr_bonds_damage(body->bonds, i);
     kr_h5_write_float(file, "/Damage", body->n, 0, o->row);
@@ -215,7 +215,6 @@ static void write_crack(const struct kr_output *o, const struct kr_ledger *ledge
     kr_h5_set_double(file, "/", "kinetic_energy", ledger->kinetic);
     kr_h5_set_double(file, "/", "strain_energy", ledger->strain);
     kr_h5_set_double(file, "/", "fracture_work", ledger->fracture);
-    kr_h5_pack(file, 1);
     kr_h5_write_double(file, "/Damage_Time", crack->n, 0, crack->damage_time);
     kr_h5_write_int32(file, "/bond", crack->count, 2, crack->pair);
     kr_h5_write_double(file, "/bond_time", crack->count, 0, crack->time);
