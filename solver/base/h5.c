@@ -101,7 +101,7 @@ static void check_format(const struct kr_h5 *file, const char *format, int64_t v
                 file->path, (long long)found_version, format, (long long)version);
 }
 
-static struct kr_h5 *open_as(const char *path, unsigned how, const char *format, int64_t version) {
+struct kr_h5 *kr_h5_open(const char *path, const char *format, int64_t version) {
     struct kr_h5 *file;
     const char *fault;
     hid_t id;
@@ -109,9 +109,7 @@ static struct kr_h5 *open_as(const char *path, unsigned how, const char *format,
     fault = plain_fault(path);
     if (fault)
         kr_stop(KR_EXIT_INPUT, "cannot open %s: %s", path, fault);
-    id = H5Fopen(path, how, H5P_DEFAULT);
-    if (id < 0 && how == H5F_ACC_RDWR && access(path, W_OK) != 0)
-        kr_stop(KR_EXIT_STORAGE, "cannot write on in %s: %s", path, strerror(errno));
+    id = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
     if (id < 0)
         kr_stop(KR_EXIT_INPUT, "cannot open %s: it is cut short or damaged; make it again", path);
     file = new_file(path, id, NULL);
@@ -119,38 +117,21 @@ static struct kr_h5 *open_as(const char *path, unsigned how, const char *format,
     return file;
 }
 
-struct kr_h5 *kr_h5_open(const char *path, const char *format, int64_t version) {
-    return open_as(path, H5F_ACC_RDONLY, format, version);
-}
-
-struct kr_h5 *kr_h5_resume(const char *path, const char *format, int64_t version) {
-    return open_as(path, H5F_ACC_RDWR, format, version);
-}
-
 /* ---- creating ---------------------------------------------------------------------------- */
 
-static struct kr_h5 *create_as(const char *path, char *beside, const char *format,
-                               int64_t version) {
+struct kr_h5 *kr_h5_create(const char *path, const char *format, int64_t version) {
     struct kr_h5 *file;
-    const char *where = beside ? beside : path;
+    char *beside = kr_text("%s.tmp", path);
     hid_t id;
     kr_h5_quiet();
-    id = H5Fcreate(where, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    id = H5Fcreate(beside, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
     if (id < 0)
-        kr_stop(KR_EXIT_STORAGE, "cannot create %s: %s", where,
+        kr_stop(KR_EXIT_STORAGE, "cannot create %s: %s", beside,
                 errno ? strerror(errno) : "HDF5 refuses");
     file = new_file(path, id, beside);
     kr_h5_set_text(file, "/", "format", format);
     kr_h5_set_int64(file, "/", "version", version);
     return file;
-}
-
-struct kr_h5 *kr_h5_create(const char *path, const char *format, int64_t version) {
-    return create_as(path, kr_text("%s.tmp", path), format, version);
-}
-
-struct kr_h5 *kr_h5_start(const char *path, const char *format, int64_t version) {
-    return create_as(path, NULL, format, version);
 }
 
 /* ---- keeping ----------------------------------------------------------------------------- */
@@ -176,22 +157,12 @@ static int settle(const struct kr_h5 *file) {
     return failed;
 }
 
-void kr_h5_flush(struct kr_h5 *file) {
-    void *handle;
-    kr_h5_quiet();
-    if (H5Fflush(file->id, H5F_SCOPE_GLOBAL) < 0 ||
-        H5Fget_vfd_handle(file->id, H5P_DEFAULT, &handle) < 0 || fsync(*(int *)handle) != 0)
-        kr_h5_fail_write(file, "");
-}
-
 void kr_h5_close(struct kr_h5 *file) {
-    unsigned how = H5F_ACC_RDONLY;
     if (!file)
         return;
     kr_h5_quiet();
-    H5Fget_intent(file->id, &how);
-    if (how != H5F_ACC_RDONLY)
-        kr_h5_flush(file);
+    if (file->beside && H5Fflush(file->id, H5F_SCOPE_GLOBAL) < 0)
+        kr_h5_fail_write(file, ""); /* a full disk is best told before HDF5 closes on it */
     if (H5Fclose(file->id) < 0 || (file->beside && settle(file))) {
         file->id = H5I_INVALID_HID;
         kr_h5_fail_write(file, "");

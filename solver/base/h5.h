@@ -2,18 +2,16 @@
  *
  * HDF5 files, with care: every failure is one sentence that names the file and the dataset.
  *
- * Three ways to hold a file:
+ * Two ways to hold a file:
  *   kr_h5_open     to read a finished file
- *   kr_h5_create   to write one that appears whole or not at all: it grows as PATH.tmp and takes
- * its name in kr_h5_close, after all of it has reached the disk kr_h5_start, kr_h5_resume   to
- * write results during a long run: the file has its name at once and can be read by others up to
- * the last kr_h5_flush. Written without fault and then killed, it holds what was flushed
+ *   kr_h5_create   to write one that appears whole or not at all: it grows as PATH.tmp and takes its
+ *                  name in kr_h5_close, after all of it has reached the disk
  *
  * Names are paths in the file, "/step/000120/Damage"; groups on the way are made. Arrays have rows
  * and columns; columns 0 is an array of rank 1. Reading converts between widths (float32 to
  * double), never between numbers with and without a fraction.
  *
- * Stops: exit 2 where a file to read, or to resume, is not as it should be; exit 3 where one cannot
+ * Stops: exit 2 where a file to read is not as it should be; exit 3 where one cannot
  * be written (what was written as PATH.tmp is then removed).
  */
 #ifndef KR_H5_H
@@ -30,15 +28,6 @@ struct kr_h5 *kr_h5_open(const char *path, const char *format, int64_t version);
 
 /** Begin a file that appears under its name when it is closed. Sets the two attributes. */
 struct kr_h5 *kr_h5_create(const char *path, const char *format, int64_t version);
-
-/** Begin a results file in place; an older file of that name is lost. */
-struct kr_h5 *kr_h5_start(const char *path, const char *format, int64_t version);
-
-/** Open an existing results file to read and to write on. */
-struct kr_h5 *kr_h5_resume(const char *path, const char *format, int64_t version);
-
-/** Bring all that was written to the disk; others can read it from now on. */
-void kr_h5_flush(struct kr_h5 *file);
 
 /** Close; a file of kr_h5_create is synced and takes its name. NULL is allowed. */
 void kr_h5_close(struct kr_h5 *file);
@@ -79,15 +68,6 @@ void kr_h5_write_int32(struct kr_h5 *file, const char *name, size_t rows, size_t
                        const int32_t *data);
 void kr_h5_write_int64(struct kr_h5 *file, const char *name, size_t rows, size_t columns,
                        const int64_t *data);
-
-/** Append rows to an array that grows with the run; made at the first call, also by 0 rows. */
-void kr_h5_extend_double(struct kr_h5 *file, const char *name, size_t rows, size_t columns,
-                         const double *data);
-void kr_h5_extend_int32(struct kr_h5 *file, const char *name, size_t rows, size_t columns,
-                        const int32_t *data);
-
-/** Cut a growing array back to its first `rows` rows; it must have at least as many. */
-void kr_h5_shorten(struct kr_h5 *file, const char *name, size_t rows);
 
 /** Shape of an array; columns 0 if it has rank 1. Stops where there is none. */
 void kr_h5_shape(const struct kr_h5 *file, const char *name, size_t *rows, size_t *columns);

@@ -26,29 +26,26 @@ static struct array array_of(const char *name, size_t rows, size_t columns, cons
     return array;
 }
 
-/** How a new array is laid out: chunks if it is packed or will grow, else in one piece. */
-static hid_t layout(const struct array *array, int packed, int grows) {
+/** How a new array is laid out: chunks if it is packed, else in one piece. */
+static hid_t layout(const struct array *array, int packed) {
     hid_t list = H5Pcreate(H5P_DATASET_CREATE);
     hsize_t chunk[2] = {array->size[0], array->size[1]};
     hsize_t most = array->rank == 2 && CHUNK / chunk[1] ? CHUNK / chunk[1] : CHUNK;
     H5Pset_obj_track_times(list, 0);
-    if (!grows && (!packed || array->size[0] == 0))
+    if (!packed || array->size[0] == 0)
         return list;
-    if (grows || chunk[0] > most)
-        chunk[0] = grows ? most / 8 : most; /* a growing record starts small */
+    if (chunk[0] > most)
+        chunk[0] = most;
     H5Pset_chunk(list, array->rank, chunk);
-    if (packed) {
-        H5Pset_shuffle(list);
-        H5Pset_deflate(list, 1);
-    }
+    H5Pset_shuffle(list);
+    H5Pset_deflate(list, 1);
     return list;
 }
 
-static hid_t create_array(struct kr_h5 *file, const struct array *array, int grows) {
-    const hsize_t endless[2] = {H5S_UNLIMITED, array->size[1]};
-    hid_t space = H5Screate_simple(array->rank, array->size, grows ? endless : NULL);
+static hid_t create_array(struct kr_h5 *file, const struct array *array) {
+    hid_t space = H5Screate_simple(array->rank, array->size, NULL);
     hid_t links = kr_h5_links();
-    hid_t list = layout(array, file->packed, grows);
+    hid_t list = layout(array, file->packed);
     hid_t set = H5Dcreate2(file->id, array->name, array->stored, space, links, list, H5P_DEFAULT);
     H5Pclose(list);
     H5Pclose(links);
@@ -97,7 +94,7 @@ static void write_array(struct kr_h5 *file, const struct array *array) {
     kr_h5_quiet();
     set = open_same(file, array);
     if (set < 0)
-        set = create_array(file, array, 0);
+        set = create_array(file, array);
     if (array->size[0])
         failed = H5Dwrite(set, array->memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, array->data);
     if (H5Dclose(set) < 0 || failed < 0)
@@ -128,59 +125,6 @@ void kr_h5_write_int64(struct kr_h5 *file, const char *name, size_t rows, size_t
     write_array(file, &array);
 }
 
-/* ---- growing ----------------------------------------------------------------------------- */
-
-/** Open a growing array, or make it with no rows. */
-static hid_t open_growing(struct kr_h5 *file, const struct array *array) {
-    struct array none = *array;
-    none.size[0] = 0;
-    if (!kr_h5_has(file, array->name))
-        return create_array(file, &none, 1);
-    return H5Dopen2(file->id, array->name, H5P_DEFAULT);
-}
-
-/** Write the array's rows behind the `before` rows there are. */
-static herr_t write_behind(hid_t set, const struct array *array, hsize_t before) {
-    hsize_t from[2] = {before, 0}, size[2] = {before + array->size[0], array->size[1]};
-    hid_t in_file, in_memory;
-    herr_t failed;
-    if (H5Dset_extent(set, size) < 0)
-        return -1;
-    in_file = H5Dget_space(set);
-    in_memory = H5Screate_simple(array->rank, array->size, NULL);
-    H5Sselect_hyperslab(in_file, H5S_SELECT_SET, from, NULL, array->size, NULL);
-    failed = H5Dwrite(set, array->memory, in_memory, in_file, H5P_DEFAULT, array->data);
-    H5Sclose(in_memory);
-    H5Sclose(in_file);
-    return failed;
-}
-
-static void extend_array(struct kr_h5 *file, const struct array *array) {
-    hsize_t size[2];
-    hid_t set;
-    herr_t failed = 0;
-    kr_h5_quiet();
-    set = open_growing(file, array);
-    if (set < 0 || shape_of(set, size) != array->rank || size[1] != array->size[1])
-        kr_h5_fail_write(file, array->name);
-    if (array->size[0])
-        failed = write_behind(set, array, size[0]);
-    if (H5Dclose(set) < 0 || failed < 0)
-        kr_h5_fail_write(file, array->name);
-}
-
-void kr_h5_extend_double(struct kr_h5 *file, const char *name, size_t rows, size_t columns,
-                         const double *data) {
-    struct array array = array_of(name, rows, columns, data, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE);
-    extend_array(file, &array);
-}
-
-void kr_h5_extend_int32(struct kr_h5 *file, const char *name, size_t rows, size_t columns,
-                        const int32_t *data) {
-    struct array array = array_of(name, rows, columns, data, H5T_NATIVE_INT32, H5T_STD_I32LE);
-    extend_array(file, &array);
-}
-
 /* ---- reading ----------------------------------------------------------------------------- */
 
 static hid_t open_to_read(const struct kr_h5 *file, const char *name, hsize_t size[2]) {
@@ -203,19 +147,6 @@ void kr_h5_shape(const struct kr_h5 *file, const char *name, size_t *rows, size_
     H5Dclose(set);
     *rows = size[0];
     *columns = size[1];
-}
-
-void kr_h5_shorten(struct kr_h5 *file, const char *name, size_t rows) {
-    hsize_t size[2];
-    hid_t set;
-    kr_h5_quiet();
-    set = open_to_read(file, name, size);
-    if (rows > size[0])
-        kr_h5_fail_read(file, name,
-                        kr_text("it has %zu rows; expected at least %zu", (size_t)size[0], rows));
-    size[0] = rows;
-    if (H5Dset_extent(set, size) < 0 || H5Dclose(set) < 0)
-        kr_h5_fail_write(file, name);
 }
 
 /** Whether numbers of the stored type go into the type in memory without harm. */

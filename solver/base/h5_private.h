@@ -12,7 +12,7 @@
 struct kr_h5 {
     hid_t id;
     char *path;
-    char *beside; /* where it grows until it is closed; NULL: in place */
+    char *beside; /* where it grows until it is closed; NULL: it is read */
     int packed;
 };
 

@@ -1,36 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # kirsch-pores and kirsch-mesh as a user runs them: files, report, and what stops them.
-build=${BUILD:-build}
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-count=0
-
-# Run a check by name, unless ONLY leaves it out. What it says is shown if it fails.
-check() { # name, command...
-    name=$1
-    shift
-    case "mesh_$name" in *"$ONLY"*) ;; *) return ;; esac
-    count=$((count + 1))
-    if "$@" >"$work/said" 2>&1; then
-        echo "ok $count - $name"
-    else
-        echo "not ok $count - $name"
-        sed 's/^/# /' "$work/said"
-    fi
-}
-
-# The command must end with the code and say the words.
-stops() { # code, words, command...
-    wanted=$1
-    words=$2
-    shift 2
-    "$@" >"$work/stop" 2>&1
-    code=$?
-    cat "$work/stop"
-    [ $code -eq "$wanted" ] || { echo "ended with $code, wanted $wanted"; return 1; }
-    grep -qF -- "$words" "$work/stop" || { echo "wanted: $words"; return 1; }
-}
+prefix=mesh
+. tests/cli/steps
 
 cat >"$work/case.yaml" <<'DECK'
 title: a small porous plate

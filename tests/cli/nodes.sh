@@ -2,37 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # kirsch-nodes on files of other programs (gmsh, meshio, netCDF4): volumes and named sets survive; what
 # it writes is read back by them; faults stop with a sentence.
-build=${BUILD:-build}
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-count=0
+prefix=nodes
+. tests/cli/steps
 python=/usr/bin/python3
-
-# Run a check by name, unless ONLY leaves it out. What it says is shown if it fails.
-check() { # name, command...
-    name=$1
-    shift
-    case "nodes_$name" in *"$ONLY"*) ;; *) return ;; esac
-    count=$((count + 1))
-    if "$@" >"$work/said" 2>&1; then
-        echo "ok $count - $name"
-    else
-        echo "not ok $count - $name"
-        sed 's/^/# /' "$work/said"
-    fi
-}
-
-# The command must end with the code and say the words.
-stops() { # code, words, command...
-    wanted=$1
-    words=$2
-    shift 2
-    "$@" >"$work/stop" 2>&1
-    code=$?
-    cat "$work/stop"
-    [ $code -eq "$wanted" ] || { echo "ended with $code, wanted $wanted"; return 1; }
-    grep -qF -- "$words" "$work/stop" || { echo "wanted: $words"; return 1; }
-}
 
 convert() {
     "$build/kirsch-nodes" --convert "$@" --output "$work"

@@ -1,24 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # kirsch-track and kirsch-plot on a drawn run: results, pictures, and each file missing or cut.
-build=${BUILD:-build}
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-count=0
-
-# Run a check by name, unless ONLY leaves it out. What it says is shown if it fails.
-check() { # name, command...
-    name=$1
-    shift
-    case "plot_$name" in *"$ONLY"*) ;; *) return ;; esac
-    count=$((count + 1))
-    if "$@" >"$work/said" 2>&1; then
-        echo "ok $count - $name"
-    else
-        echo "not ok $count - $name"
-        sed 's/^/# /' "$work/said"
-    fi
-}
+prefix=plot
+. tests/cli/steps
 run=$work/case
 track() { "$build/kirsch-track" --output "$run" "$run/case.yaml"; }
 plot() { "$build/kirsch-plot" --output "$run" "$run/case.yaml" "$@"; }
