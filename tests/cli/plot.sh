@@ -117,3 +117,4 @@ check tells_that_nothing_broke with_damage inf 'none: no damage past the thresho
 check tells_that_everything_broke with_damage 4e-6 'not to be counted: 100 % of all nodes'
 check fills_every_pixel no_gaps
 check refuses_an_unknown_argument stops 2 'unknown' "$build/kirsch-track" "$run/case.yaml" --fast
+echo "1..$count"
