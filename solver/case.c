@@ -225,6 +225,15 @@ static const struct kr_deck_key load_keys[] = {
     {NULL},
 };
 
+static const struct kr_deck_key initial_keys[] = {
+    {"displacement", LOAD_OF(AT(initial_displacement), "m"),
+     .text = "Displacement of every node at time 0, an expression in x, y, z a component."},
+    {"velocity", LOAD_OF(AT(initial_velocity), "m/s"),
+     .text = "Velocity of every node at time 0, such as `[100*x m/s, 100*y m/s]` of a ring that flies "
+             "apart."},
+    {NULL},
+};
+
 static const struct kr_deck_key solver_keys[] = {
     {"end_time", NUMBER_OF(AT(end_time), "s"), POSITIVE, .text = "Time at which the run ends."},
     {"time_step", NUMBER_OF(AT(time_step), "s"), .fallback = "0 s", NOT_NEGATIVE,
@@ -286,6 +295,8 @@ const struct kr_deck_key kr_case_keys[] = {
      .text = "How kirsch-nodes turns cells into peridynamic nodes."},
     {"material", KR_DECK_SECTION, .keys = material_keys, .text = "What the plate is made of."},
     {"cracks", KR_DECK_SECTION, .keys = cracks_keys, .text = "Cracks before the run."},
+    {"initial", KR_DECK_SECTION, .keys = initial_keys,
+     .text = "How the run begins where it does not begin at rest. Prescribed motions win over it."},
     {"loads", LIST_OF(KR_DECK_LIST, struct kr_case_load, load_keys), .offset = AT(loads),
      .text = "What moves or pulls the plate. Each load has a set and just one of displacement, "
              "velocity, traction and body_force."},

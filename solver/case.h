@@ -139,6 +139,9 @@ struct kr_case {
     struct kr_deck_list cracks; /* struct kr_case_crack */
     int count_precrack;
 
+    /* initial */
+    struct kr_deck_formula initial_displacement[3], initial_velocity[3]; /* m, m/s */
+
     struct kr_deck_list loads;   /* struct kr_case_load */
     struct kr_deck_list no_fail; /* const char * */
 

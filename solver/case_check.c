@@ -127,6 +127,17 @@ static void check_sets_and_loads(struct kr_deck *deck, const struct kr_case *c) 
         check_load(deck, c, &loads[i]);
 }
 
+static void check_initial(struct kr_deck *deck, const struct kr_case *c) {
+    const struct kr_deck_formula *field[] = {c->initial_displacement, c->initial_velocity};
+    for (int k = 0; k < 2; k++) {
+        kr_case_check_count(deck, c, field[k]);
+        for (int d = 0; d < 3; d++)
+            if (field[k][d].is_free)
+                kr_deck_fault(deck, &field[k][d], "found 'free', expected an expression or 0; nothing "
+                                                  "is free at time 0");
+    }
+}
+
 static void check_times(struct kr_deck *deck, const struct kr_case *c) {
     const double *at = c->output_at.item;
     if (!(c->end_time > 0))
@@ -172,6 +183,7 @@ void kr_case_check(struct kr_deck *deck, const struct kr_case *c) {
     kr_case_check_geometry(deck, c);
     check_sets_and_loads(deck, c);
     kr_case_check_cracks(deck, c);
+    check_initial(deck, c);
     check_times(deck, c);
     for (size_t i = 0; i < c->boxes.count; i++)
         if (kr_deck_given(deck, boxes[i].lower) && kr_deck_given(deck, boxes[i].upper))

@@ -42,7 +42,7 @@ static const struct step steps[] = {
     {"kirsch-mesh", "geometry mesh nodes", {"pores.txt"}, {"plate.msh"}},
     {"kirsch-nodes", "nodes material loads no_fail", {"plate.msh"}, {"plate.nodes.h5"}},
     {"kirsch-solve",
-     "title nodes material cracks loads no_fail solver output",
+     "title nodes material cracks initial loads no_fail solver output",
      {"plate.nodes.h5"},
      {"run.h5", "run/crack.h5", "history.csv"}},
     {"kirsch-track", "track", {"run.h5", "run/crack.h5"}, {"tips.csv", "summary.csv"}},
@@ -230,7 +230,8 @@ static void run_steps(const struct job *job) {
     int behind = job->force;
     for (int k = 0; k < STEPS; k++) {
         const struct step *step = &steps[k];
-        if ((k == PORES && !job->c.pores.count) || (k <= MESH && job->mesh))
+        if ((k == PORES && !job->c.pores.count) || (k <= MESH && job->mesh) ||
+            (k > SOLVE && kr_case_dim(&job->c) == 3)) /* they look at plates */
             continue;
         if (!behind && is_up_to_date(job, step)) {
             kr_say("%s is up to date", step->program);
@@ -340,7 +341,8 @@ int main(int argc, char **argv) {
         explain(&job);
     } else {
         run_steps(&job);
-        print_summary(&job);
+        if (kr_case_dim(&job.c) == 2)
+            print_summary(&job);
         print_paths(&job);
     }
     kr_deck_close(job.deck);

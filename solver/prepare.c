@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "initial.h"
 #include "precrack.h"
 #include "time_step.h"
 #include "wave.h"
@@ -148,6 +149,7 @@ struct kr_run *kr_run_create(struct kr_deck *deck, const struct kr_case *c) {
         report_drift(run->body, c->width);
     choose_time_step(run, deck);
     kr_deck_finish(deck);
+    kr_initial_set(c, run->nodes, run->body);
     kr_free(path);
     return run;
 }

@@ -336,6 +336,13 @@ static const struct row {
      "case.yaml:22:23: cracks.precracks.0.from: the crack lies outside the plate of 0.05 m x 0.025 "
      "m\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_initial_field_left_free", "no_fail: [top]",
+     "no_fail: [top]\ninitial: {velocity: [free, 3 m/s, 0 m/s]}", NULL, NULL,
+     "case.yaml:27:22: initial.velocity: found 3 components, expected 2: the model is a plate; "
+     "material.model: solid has three\n"
+     "case.yaml:27:22: initial.velocity: found 'free', expected an expression or 0; nothing is free at "
+     "time 0\n"
+     "kirsch: 2 faults in case.yaml; nothing was done\n"},
     {"deck_precrack_half_given", ", to: [3 mm, 12 mm]", "", NULL, NULL,
      "case.yaml:22:16: cracks.precracks.0.to: missing; expected to: [2 mm, 5 mm]\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
@@ -422,7 +429,7 @@ static const struct row {
     {"deck_fault_that_would_spread_over_lines", "title: a plate",
      "title: a plate\n\"two\\nlines\": 3", NULL, NULL,
      "case.yaml:2:1: two lines: unknown key; known here: title, preset, no_fail, geometry, mesh, "
-     "nodes, material, cracks, loads, solver, output, track\n"
+     "nodes, material, cracks, initial, loads, solver, output, track\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_no_yaml", "mesh:", "mesh: {", NULL, NULL,
      "kirsch: case.yaml:10:10: not a YAML file: missing comma in flow mapping\n"},
