@@ -3,8 +3,9 @@
  * Pre-cracks. See precrack.h.
  *
  * A polygon or disc lies in a plane: a bond meets it where its ends lie on two sides and the point
- * between them lies inside. Ends closer to the plane than a billionth of the crack's size lie in it,
- * so that rounding does not choose among the bonds of a node that was put there.
+ * between them lies inside. Ends closer to the plane than a billionth of the crack's size lie in it, and
+ * points as close to its rim are inside: bonds that touch by the numbers of the deck do so whatever the
+ * rounding.
  */
 #include "precrack.h"
 
@@ -17,7 +18,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double IN_PLANE = 1e-9;
+static const double BARELY = 1e-9;
 
 enum shape { LINE, POLYGON, DISC, SURFACE };
 
@@ -141,10 +142,10 @@ static double height_of(const struct kr_precrack *crack, const double p[3]) {
     double height = 0;
     for (int d = 0; d < 3; d++)
         height += crack->normal[d] * (p[d] - crack->origin[d]);
-    return fabs(height) < IN_PLANE * crack->size ? 0 : height;
+    return fabs(height) < BARELY * crack->size ? 0 : height;
 }
 
-/* A segment in the plane of the crack; p and q may be one place. */
+/* A segment in the plane of the crack. */
 static int meets_within(const struct kr_precrack *crack, const double p[3], const double q[3]) {
     if (crack->shape == POLYGON) {
         const size_t *axis = crack->across;
@@ -156,10 +157,22 @@ static int meets_within(const struct kr_precrack *crack, const double p[3], cons
         along += (crack->origin[d] - p[d]) * (q[d] - p[d]);
         length += (q[d] - p[d]) * (q[d] - p[d]);
     }
-    double share = length > 0 ? fmin(fmax(along / length, 0), 1) : 0;
+    double share = fmin(fmax(along / length, 0), 1);
     for (int d = 0; d < 3; d++)
         square += pow(p[d] + share * (q[d] - p[d]) - crack->origin[d], 2);
     return square <= crack->radius * crack->radius;
+}
+
+/* A place in the plane of the crack. */
+static int is_in(const struct kr_precrack *crack, const double x[3]) {
+    double square = 0, near = BARELY * crack->size;
+    if (crack->shape == POLYGON) {
+        const double place[2] = {x[crack->across[0]], x[crack->across[1]]};
+        return kr_flat_is_in(crack->n, crack->corner, place, near);
+    }
+    for (int d = 0; d < 3; d++)
+        square += pow(x[d] - crack->origin[d], 2);
+    return sqrt(square) <= crack->radius + near;
 }
 
 static int meets_plane(const struct kr_precrack *crack, const double p[3], const double q[3]) {
@@ -170,7 +183,7 @@ static int meets_plane(const struct kr_precrack *crack, const double p[3], const
         return meets_within(crack, p, q);
     for (int d = 0; d < 3; d++)
         between[d] = p[d] + from / (from - to) * (q[d] - p[d]);
-    return meets_within(crack, between, between); /* a segment without length */
+    return is_in(crack, between);
 }
 
 int kr_precrack_meets(const struct kr_precrack *crack, const double *p, const double *q) {
