@@ -225,6 +225,11 @@ char *kr_case_file(const struct kr_case *c, const char *name);
 /** Radius [m] of a circle around a hole, and that circle's centre. */
 double kr_case_hole_reach(const struct kr_case_hole *hole, double centre[2]);
 
+/** The pores of a file, checked; owned by the caller. Lines of `x y radius` in metres (`x y long
+ *  short degrees` for ellipses); or, as the plates paper hands them to ANSYS (appendix 4), a first line
+ *  with their number and then lengths in millimetres. Stops (exit 2) and names the line. */
+struct kr_case_hole *kr_case_read_pores(const struct kr_case *c, const char *path, size_t *count);
+
 /** Whether the case has pores, by a count, a porosity or a file. */
 int kr_case_has_pores(const struct kr_case *c);
 

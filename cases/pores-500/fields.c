@@ -18,7 +18,6 @@
 #include <string.h>
 
 static const double MM = 1e-3;
-enum { MOST_PORES = 60 };
 
 /* What all fields have in common. */
 struct totals {
@@ -78,10 +77,10 @@ static void mesh_field(int grid, int64_t seed, int64_t pores, double spacing,
                                   .radius = {0.75 * MM, 1.5 * MM},
                                   .edge_diameters = 1,
                                   .gap = 0.3 * MM}};
-    struct kr_case_hole pore[MOST_PORES];
     struct kr_plate_report report;
-    int64_t throws;
-    if (kr_pores_throw(&c, pore, &throws) < (size_t)pores)
+    struct kr_pores thrown = kr_pores_throw(&c);
+    const struct kr_case_hole *pore = thrown.hole;
+    if (thrown.placed < (size_t)pores)
         kr_stop(KR_EXIT_INPUT, "seed %lld: no place for %lld pores", (long long)seed,
                 (long long)pores);
     if (!(least_gap(pore, (size_t)pores) >= (0.3 - 1e-9) * MM))
@@ -101,6 +100,7 @@ static void mesh_field(int grid, int64_t seed, int64_t pores, double spacing,
     count(mesh, &plate, &report, all);
     kr_mesh_free(mesh);
     kr_plate_report_free(&report);
+    kr_pores_free(&thrown);
 }
 
 int main(int argc, char **argv) {
@@ -111,7 +111,7 @@ int main(int argc, char **argv) {
     int grid = grid_named(argv[1]);
     int64_t from = atoll(argv[2]), to = atoll(argv[3]), pores = atoll(argv[4]);
     double spacing = atof(argv[5]) * MM;
-    if (from < 0 || to < from || pores < 1 || pores > MOST_PORES || !(spacing > 0))
+    if (from < 0 || to < from || pores < 1 || !(spacing > 0))
         kr_stop(KR_EXIT_INPUT, "fields GRID FROM TO PORES SPACING: a number is out of range");
     for (int64_t seed = from; seed <= to; seed++) {
         mesh_field(grid, seed, pores, spacing, &all);
