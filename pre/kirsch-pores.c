@@ -22,7 +22,8 @@ static char *rules_of(const struct kr_case *c) {
     const struct kr_case_pores *p = &c->pores;
     char word[32];
     if (p->file && *p->file)
-        return kr_text("# x y radius [m]; from %s\n", p->file);
+        return kr_text("# x y radius [m]; from %s\n",
+                       strrchr(p->file, '/') ? strrchr(p->file, '/') + 1 : p->file);
     kr_case_word(KR_DISTRIBUTION_WORDS, p->distribution, word);
     char *sizes = p->distribution == KR_UNIFORM
                       ? kr_text("%s", "")

@@ -43,6 +43,10 @@ static int note(const struct kr_piece *p, const struct kr_piece *q, const double
         new.v = is_same(q->from, point) ? 0 : 1;
     if (is_same(p->from, point) || is_same(p->to, point))
         new.u = is_same(p->from, point) ? 0 : 1;
+    /* A crossing that misses a line of the lattice by rounding alone stands on it. */
+    for (int d = 0; d < 2; d++)
+        if (fabs(point[d] - nearbyint(point[d])) < KR_SHAPE_SAME)
+            new.point[d] = nearbyint(point[d]);
     if (n == MOST || !(new.u >= 0 && new.u <= 1 && new.v >= 0 && new.v <= 1))
         return n;
     if (new.v == 0 || new.v == 1)

@@ -5,6 +5,7 @@
  */
 #include "test.h"
 
+#include "pore_size.h"
 #include "pores.h"
 
 /* Places are whole nanometres and the rules hold for them exactly; metres in double precision
@@ -151,6 +152,43 @@ static void radii_and_places_are_even(void **unused) {
     kr_check_near(x, 0, 4 * 2 / sqrt(12.0 * 3000));
 }
 
+/** Mean and standard deviation of 20000 radii of a distribution. */
+static void moments_of(int distribution, double mean, double deviation, double least, double most,
+                       double moment[2]) {
+    struct kr_case_pores p = {.distribution = distribution,
+                              .mean = mean,
+                              .deviation = deviation,
+                              .radius = {least, most}};
+    uint64_t state = 77;
+    double sum = 0, squares = 0;
+    enum { DRAWS = 20000 };
+    for (int k = 0; k < DRAWS; k++) {
+        double r = 1e-9 * (double)kr_pore_size_draw(&p, &state).radius;
+        assert_true(r >= least - 1e-12 && r <= most + 1e-12);
+        sum += r / DRAWS;
+        squares += r * r / DRAWS;
+    }
+    moment[0] = sum;
+    moment[1] = sqrt(squares - sum * sum);
+}
+
+/** Against closed formulas, within 4 standard errors (of the mean d/sqrt(n), of d about as much). */
+static void radii_follow_their_distribution(void **unused) {
+    (void)unused;
+    const double error = 4 / sqrt(20000);
+    double m[2];
+    moments_of(KR_NORMAL, 1e-3, 0.1e-3, 0.5e-3, 1.5e-3, m); /* cut off at 5 deviations: as good as whole */
+    kr_check_near(m[0], 1e-3, 0.1e-3 * error);
+    kr_check_near(m[1], 0.1e-3, 0.1e-3 * error);
+    moments_of(KR_NORMAL, 1e-3, 0.3e-3, 1e-3, 9e-3, m); /* the upper half: m + d sqrt(2/pi) */
+    kr_check_near(m[0], 1e-3 + 0.3e-3 * sqrt(2 / M_PI), 0.3e-3 * error);
+    moments_of(KR_LOGNORMAL, 1e-3, 0.4e-3, 0.05e-3, 20e-3, m);
+    kr_check_near(m[0], 1e-3, 0.4e-3 * error);
+    kr_check_near(m[1], 0.4e-3, 0.4e-3 * 2 * error); /* its tail weighs more */
+    moments_of(KR_BY_AREA, 0, 0, 1e-3, 2e-3, m); /* (2/3)(8 - 1)/(4 - 1) */
+    kr_check_near(m[0], 14e-3 / 9, 0.29e-3 * error);
+}
+
 static void an_impossible_request_ends(void **unused) {
     (void)unused;
     struct kr_case c = plate(400, 1);
@@ -176,6 +214,7 @@ int main(void) {
         cmocka_unit_test(equal_seeds_give_equal_pores_and_others_do_not),
         cmocka_unit_test(nine_decimals_give_each_number_back),
         cmocka_unit_test(radii_and_places_are_even),
+        cmocka_unit_test(radii_follow_their_distribution),
         cmocka_unit_test(an_impossible_request_ends),
     };
     kr_run_tests(tests);
