@@ -15,6 +15,7 @@
 #define KR_OPERATION_WORDS "union difference"
 #define KR_PORE_WORDS "circle ellipse"
 #define KR_DISTRIBUTION_WORDS "uniform normal lognormal by-area"
+#define KR_VOID_WORDS "sphere ellipsoid cylinder stl"
 #define KR_PARTIAL_VOLUME_WORDS "hhb none hhb-one-sided exact exact-centroid"
 #define KR_SURFACE_WORDS "energy none volume force-density"
 #define KR_DEFORMATION_WORDS "uniaxial-y uniaxial-x isotropic mean-over-axes"
@@ -40,6 +41,7 @@ enum kr_outline {
 enum kr_operation { KR_UNION, KR_DIFFERENCE };
 enum kr_pore { KR_PORE_CIRCLE, KR_PORE_ELLIPSE };
 enum kr_distribution { KR_UNIFORM, KR_NORMAL, KR_LOGNORMAL, KR_BY_AREA };
+enum kr_void_shape { KR_VOID_SPHERE, KR_VOID_ELLIPSOID, KR_VOID_CYLINDER, KR_VOID_STL };
 enum kr_partial_volume {
     KR_PARTIAL_VOLUME_HHB,
     KR_PARTIAL_VOLUME_NONE,
@@ -84,6 +86,25 @@ struct kr_case_outline {
     int operation;              /* enum kr_operation: what a part does to those before it */
     const char *name;           /* of a part's edges as a boundary; NULL: outline */
     struct kr_deck_list parts;  /* struct kr_case_outline: the outline is made of these, in turn */
+};
+
+/* A body given by its closed surface in an STL file. */
+struct kr_case_stl {
+    const char *file;
+    double unit;      /* m: what 1 in the file stands for */
+    double centre[3]; /* m: where its origin comes to lie */
+};
+
+/* A void in a solid. */
+struct kr_case_void {
+    double centre[3]; /* m; of an STL file: where its origin comes to lie */
+    int shape;        /* enum kr_void_shape */
+    double radius;    /* m: sphere and cylinder */
+    double radii[3];  /* m: half axes of an ellipsoid */
+    double length;    /* m: of a cylinder */
+    double axis[3];   /* direction of a cylinder, of any length */
+    const char *file; /* stl */
+    double unit;      /* m: stl */
 };
 
 struct kr_case_pores {
@@ -132,6 +153,9 @@ struct kr_case {
     double width, height; /* m: plate with its lower left corner at (0, 0) */
     struct kr_case_outline outline;
     struct kr_deck_list holes;  /* struct kr_case_hole */
+    double depth;               /* m: of a solid, from z = 0; 0: a plate */
+    struct kr_deck_list voids;  /* struct kr_case_void */
+    struct kr_case_stl body;    /* instead of outline and holes; no file: none */
     struct kr_case_pores pores; /* count 0: none */
 
     /* mesh */
@@ -214,6 +238,9 @@ void kr_case_complete_geometry(struct kr_deck *deck, struct kr_case *c);
 
 /** The part of it that looks at outline, holes and pores. */
 void kr_case_check_geometry(struct kr_deck *deck, const struct kr_case *c);
+
+/** The part of it that looks at depth, voids and the body of an STL file. */
+void kr_case_check_solid(struct kr_deck *deck, const struct kr_case *c);
 
 /** Warn of what is doubtful in a case without faults. */
 void kr_case_warn(struct kr_deck *deck, const struct kr_case *c);
