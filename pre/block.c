@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "block_body.h"
+#include "boxes_solid.h"
 #include "cell.h"
 #include "cut_cells.h"
 #include "extrude.h"
@@ -76,7 +77,8 @@ static double conformity_of(const struct kr_mesh *mesh, const struct kr_block_bo
 static struct kr_mesh *cut(const struct kr_block *block, struct kr_block_report *report) {
     struct kr_block_body *body = kr_block_body_of(block);
     struct kr_mesh *mesh = block->plate.grid == KR_GRID_UNIFORM   ? kr_cubes_mesh(body)
-                                                                  : kr_cut_cells_mesh(body);
+                           : block->plate.grid == KR_GRID_VORONOI ? kr_cut_cells_mesh(body)
+                                                                  : kr_boxes_solid_mesh(block, body, report);
     report->exact_volume = kr_block_body_volume(body);
     report->filled_volume = enclosed(mesh);
     report->conformity = conformity_of(mesh, body);

@@ -171,3 +171,12 @@ double kr_block_body_volume(const struct kr_block_body *body) {
     }
     return volume * cube;
 }
+
+int kr_block_side(const struct kr_block_body *body, const double *p, const double *q, const double *r) {
+    for (int s = 0; s < 6; s++) {
+        double at = s % 2 ? (double)body->n[s / 2] : 0;
+        if (p[s / 2] == at && q[s / 2] == at && r[s / 2] == at)
+            return s;
+    }
+    return -1;
+}

@@ -34,6 +34,10 @@ static inline size_t kr_block_cell(const struct kr_block_body *body, size_t i, s
     return (k * body->n[1] + j) * body->n[0] + i;
 }
 
+/** Side of the block that a triangle lies in (0, 1: low, high along x; ...); -1: none. A surface that
+ *  runs along a side leaves it to the side. */
+int kr_block_side(const struct kr_block_body *body, const double *p, const double *q, const double *r);
+
 /** A function at the points  first + whole numbers  from `low` to `high`; positive beyond. */
 struct kr_field {
     long low[3], high[3];

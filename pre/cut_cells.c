@@ -112,51 +112,40 @@ static void add_triangle(struct cutting *cutting, struct cube *cube, const size_
         cube->side[FIRST_SIDE - label] += area_of(x + 3 * p[0], x + 3 * p[1], x + 3 * p[2]);
 }
 
-/** Tetrahedra between the first vertex and the faces it is not in; faces are fans about it, or about
- *  their own first corner, so that every triangle is the side of a tetrahedron. */
 static void add_pieces(struct cutting *cutting, struct cube *cube, const struct kr_poly *poly,
                        const size_t *point) {
-    for (size_t f = 0; f < poly->n_faces; f++) {
-        const struct kr_poly_face *face = &poly->face[f];
-        size_t pivot = 0;
-        while (pivot < face->n && face->corner[pivot])
-            pivot++;
-        int has_first = pivot < face->n;
-        pivot = has_first ? pivot : 0;
-        for (size_t k = 1; k + 1 < face->n; k++) {
-            const size_t p[3] = {point[face->corner[pivot]],
-                                 point[face->corner[(pivot + k) % face->n]],
-                                 point[face->corner[(pivot + k + 1) % face->n]]};
-            if (face->label != INNER)
-                add_triangle(cutting, cube, p, face->label);
-            if (has_first)
-                continue;
-            const double *x = cutting->builder.mesh->point;
-            KR_GROW(cutting->tetrahedron, cutting->n_tetrahedra, cutting->tetrahedra_room);
-            size_t *t = cutting->tetrahedron[cutting->n_tetrahedra++];
-            memcpy(t, (const size_t[4]){p[0], p[2], p[1], point[0]}, 4 * sizeof *t);
-            cube->volume += volume_of(x + 3 * t[0], x + 3 * t[1], x + 3 * t[2], x + 3 * t[3]);
-        }
+    struct kr_poly_pieces pieces;
+    const double *x = cutting->builder.mesh->point;
+    kr_poly_cut(poly, point, &pieces);
+    for (size_t k = 0; k < pieces.n_triangles; k++) {
+        const unsigned char *v = pieces.triangle[k];
+        if (pieces.label[k] != INNER)
+            add_triangle(cutting, cube, (const size_t[3]){point[v[0]], point[v[1]], point[v[2]]},
+                         pieces.label[k]);
+    }
+    for (size_t k = 0; k < pieces.n_tetrahedra; k++) {
+        KR_GROW(cutting->tetrahedron, cutting->n_tetrahedra, cutting->tetrahedra_room);
+        size_t *t = cutting->tetrahedron[cutting->n_tetrahedra++];
+        for (int c = 0; c < 4; c++)
+            t[c] = point[pieces.tetrahedron[k][c]];
+        cube->volume += volume_of(x + 3 * t[0], x + 3 * t[1], x + 3 * t[2], x + 3 * t[3]);
     }
 }
 
-/** One of the six tetrahedra: from the lowest corner along the axes a, b, c in turn. */
-static void cut_tetrahedron(struct cutting *cutting, struct cube *cube, const int axis[3],
-                            int is_mirrored, const double (*value)[8], size_t n_cutters,
-                            const size_t *cutter) {
+static void cut_tetrahedron(struct cutting *cutting, struct cube *cube, const struct kr_kuhn *kuhn,
+                            const double (*value)[8], size_t n_cutters, const size_t *cutter) {
     struct kr_poly poly;
-    size_t corner[4][3], number[4] = {0}, point[KR_POLY_VERTICES];
-    const int label[4] = {FIRST_SIDE - (2 * axis[0] + 1), INNER, INNER, FIRST_SIDE - 2 * axis[2]};
-    memcpy(corner[0], cube->at, sizeof corner[0]);
-    for (size_t k = 1; k < 4; k++) {
-        memcpy(corner[k], corner[k - 1], sizeof corner[k]);
-        corner[k][axis[k - 1]]++;
-        number[k] = number[k - 1] | (size_t)1 << axis[k - 1];
-    }
-    kr_poly_begin(&poly, is_mirrored, label);
+    size_t corner[4][3], point[KR_POLY_VERTICES];
+    const int label[4] = {FIRST_SIDE - kuhn->side_of_first, INNER, INNER,
+                          FIRST_SIDE - kuhn->side_of_last};
+    for (size_t k = 0; k < 4; k++)
+        for (int d = 0; d < 3; d++)
+            corner[k][d] = cube->at[d] + (kuhn->corner[k] >> d & 1u);
+    kr_poly_begin(&poly, kuhn->is_mirrored, label);
     for (size_t c = 0; c < n_cutters && poly.n; c++) {
-        const double f[4] = {value[c][number[0]], value[c][number[1]], value[c][number[2]],
-                             value[c][number[3]]};
+        double f[4];
+        for (int k = 0; k < 4; k++)
+            f[k] = value[c][kuhn->corner[k]];
         kr_poly_clip(&poly, f, (int)cutter[c]);
     }
     cube->is_whole &= poly.n == 4 && poly.weight[0][0] == 1 && poly.weight[1][1] == 1 &&
@@ -168,11 +157,10 @@ static void cut_tetrahedron(struct cutting *cutting, struct cube *cube, const in
 /** Cut a cube by some surfaces and add what is left; returns its place, or -1 if nothing is. */
 static long cut_cube(struct cutting *cutting, const size_t at[3], size_t n_cutters,
                      const size_t *cutter, const double (*value)[8]) {
-    static const int axes[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
     struct cube cube = {.at = {at[0], at[1], at[2]}, .tetrahedra = cutting->n_tetrahedra,
                         .triangles = cutting->n_triangles, .root = cutting->n_cubes, .is_whole = 1};
     for (int t = 0; t < 6; t++)
-        cut_tetrahedron(cutting, &cube, axes[t], t > 2, value, n_cutters, cutter);
+        cut_tetrahedron(cutting, &cube, &kr_kuhn[t], value, n_cutters, cutter);
     if (cutting->n_tetrahedra == cube.tetrahedra)
         return -1;
     cube.joined = cube.volume;
@@ -303,6 +291,9 @@ static int group_of(const struct cutting *cutting, const size_t at[3], int label
     if (label >= 0) {
         double middle[3];
         const double *x = cutting->builder.mesh->point;
+        int side = kr_block_side(body, x + 3 * p[0], x + 3 * p[1], x + 3 * p[2]);
+        if (side >= 0)
+            return body->side[side];
         for (int d = 0; d < 3; d++)
             middle[d] = (x[3 * p[0] + d] + x[3 * p[1] + d] + x[3 * p[2] + d]) / 3;
         return kr_cutter_group(&body->cutter[label], middle);

@@ -141,3 +141,33 @@ void kr_poly_clip(struct kr_poly *poly, const double value[4], int label) {
         clip_face(&c, &old.face[f]);
     close_up(&c, label);
 }
+
+void kr_poly_cut(const struct kr_poly *poly, const size_t *number, struct kr_poly_pieces *pieces) {
+    unsigned char first = 0;
+    pieces->n_tetrahedra = pieces->n_triangles = 0;
+    for (unsigned char v = 1; v < poly->n; v++)
+        first = number[v] < number[first] ? v : first;
+    for (size_t f = 0; f < poly->n_faces; f++) {
+        const struct kr_poly_face *face = &poly->face[f];
+        size_t pivot = 0;
+        for (size_t k = 1; k < face->n; k++)
+            pivot = number[face->corner[k]] < number[face->corner[pivot]] ? k : pivot;
+        int has_first = face->corner[pivot] == first;
+        for (size_t k = 1; k + 1 < face->n; k++) {
+            const unsigned char p[3] = {face->corner[pivot], face->corner[(pivot + k) % face->n],
+                                        face->corner[(pivot + k + 1) % face->n]};
+            pieces->label[pieces->n_triangles] = face->label;
+            memcpy(pieces->triangle[pieces->n_triangles++], p, sizeof p);
+            if (!has_first)
+                memcpy(pieces->tetrahedron[pieces->n_tetrahedra++],
+                       (const unsigned char[4]){p[0], p[2], p[1], first}, 4);
+        }
+    }
+}
+
+/* From corner 0 to corner 7 along the axes in the order a, b, c: the first face lies in the high side
+ * of a, the last in the low side of c. */
+#define KUHN(a, b, c, mirrored)                                                                    \
+    {{0, 1 << (a), 1 << (a) | 1 << (b), 7}, 2 * (a) + 1, 2 * (c), mirrored}
+const struct kr_kuhn kr_kuhn[6] = {KUHN(0, 1, 2, 0), KUHN(1, 2, 0, 0), KUHN(2, 0, 1, 0),
+                                   KUHN(0, 2, 1, 1), KUHN(2, 1, 0, 1), KUHN(1, 0, 2, 1)};

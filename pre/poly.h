@@ -40,4 +40,24 @@ void kr_poly_begin(struct kr_poly *poly, int is_mirrored, const int label[4]);
  */
 void kr_poly_clip(struct kr_poly *poly, const double value[4], int label);
 
+/** What a polyhedron is cut into: its faces as fans about the vertex of the least number, and
+ *  tetrahedra between the least of all and the faces it is not in. So every triangle is a side of a
+ *  tetrahedron, and neighbours cut a face alike whether it is flat or not. Numbers of vertices; triangles are counter-clockwise seen from outside. */
+struct kr_poly_pieces {
+    size_t n_tetrahedra, n_triangles;
+    unsigned char tetrahedron[2 * KR_POLY_VERTICES][4], triangle[2 * KR_POLY_VERTICES][3];
+    int label[2 * KR_POLY_VERTICES]; /* (triangles) */
+};
+
+/** in  number  (vertices) of each among all points */
+void kr_poly_cut(const struct kr_poly *poly, const size_t *number, struct kr_poly_pieces *pieces);
+
+/** Corners of the six tetrahedra around the diagonal of a cube (corner c: bits of x, y, z), in
+ *  ascending order; the sides of the cube that their faces opposite to the first and last corner lie
+ *  in (0, 1: low, high along x; ...); the last three are mirrored. */
+extern const struct kr_kuhn {
+    unsigned char corner[4], side_of_first, side_of_last;
+    int is_mirrored;
+} kr_kuhn[6];
+
 #endif
