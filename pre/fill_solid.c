@@ -18,6 +18,7 @@ enum { LONGEST = 300 };
 
 /* Mesh.Algorithm3D. Of the others in Debian's gmsh 4.8, 4 needs Netgen, which is absent, 9 crashes, and 10
  * (HXT) differs from run to run. */
+/* Its largest length of an edge, in spacings, is that of which cells have one cube in the mean. */
 enum { DELAUNAY = 1 };
 
 static double six_volumes(const double *a, const double *b, const double *c, const double *d) {
@@ -81,7 +82,7 @@ static size_t shells_of(const struct kr_solid_region *r, size_t *shell) {
 static void ask(const struct kr_solid_region *r, FILE *file, size_t *sent) {
     size_t *shell = KR_NEW(size_t, r->n_shell_points), *local = KR_NEW(size_t, r->n_shell_points);
     size_t shells = shells_of(r, shell), total = 0;
-    fprintf(file, "solid algorithm %d size 2 shells %zu\n", DELAUNAY, shells);
+    fprintf(file, "solid algorithm %d size 1.6 shells %zu\n", DELAUNAY, shells);
     for (size_t s = 0; s < shells; s++) {
         size_t points = 0, triangles = 0;
         for (size_t p = 0; p < r->n_shell_points; p++)

@@ -4,7 +4,7 @@
  * counterpart of gmsh.h. Nothing that a child says is believed.
  *
  * A request, lengths in spacings:
- *    solid algorithm 1 size 2 shells S
+ *    solid algorithm 1 size 1.6 shells S
  *    shell points N triangles M, N lines x y z, M lines of three places among them: the outer shell
  *                                first; seen from outside the region counter-clockwise
  * The reply:
