@@ -49,7 +49,7 @@ struct kr_field {
  *
  *  in  sharpen  lower the values by what linear interpolation in the tetrahedra of a cube is too large
  *               in the mean,  f - (D_x + D_y + D_z + D_111) f/24  with second differences D along the
- *               edges and the diagonal: then the volume is exact to a higher order (theory.md)
+ *               edges and the diagonal: then the volume is exact to a higher order (grids.md)
  *
  *  Values farther from the surface than a few spacings have the right sign and no more.
  */
