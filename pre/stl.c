@@ -106,7 +106,8 @@ static void read_file(struct reading *r) {
     if (r->scan.size >= HEAD)
         memcpy(&count, r->scan.data + HEAD - sizeof count, sizeof count);
     size_t wanted = HEAD + RECORD * (size_t)count;
-    int is_ascii = r->scan.size > 5 && !strncasecmp(r->scan.data, "solid", 5);
+    int is_ascii = r->scan.size > 5 && !strncasecmp(r->scan.data, "solid", 5) &&
+                   !memchr(r->scan.data, 0, r->scan.size);
     if (r->scan.size >= HEAD && r->scan.size == wanted)
         read_binary(r, count);
     else if (is_ascii)

@@ -175,7 +175,7 @@ static void broken_files(void **unused) {
             "cut.stl:355: the file ends");
     refuses(write_ascii("garbled", 0, 50, "facet normal 0 0 0 outer loop vertex 1 2 ugh"), "'ugh'");
     refuses(write_ascii("no-end", 0, TRIANGLES, ""), "endsolid");
-    refuses(write_binary("short", TRIANGLES, TRIANGLES - 7), "needs 720084");
+    refuses(write_binary("short", TRIANGLES, TRIANGLES - 7), "of 14400 triangles needs 720084");
     refuses(write_text("empty", ""), "neither an ASCII STL file");
     refuses(write_text("hollow", "solid nothing\nendsolid nothing\n"), "4 or more");
     refuses(write_text("words", "This is no surface."), "neither an ASCII STL file");
