@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "cgal_surface.h"
+#include "outline.h"
 #include "stl.h"
 
 #include <math.h>
@@ -19,12 +20,10 @@ static void add_group(struct kr_block_body *body, char *name) {
 
 static void name_groups(struct kr_block_body *body, const struct kr_block *block) {
     const struct kr_plate_body *flat = &body->flat;
-    for (int g = 0; g < flat->first_hole; g++)
-        add_group(body, kr_text_copy(flat->group[g]));
-    for (size_t g = (size_t)flat->first_hole; g < flat->n_groups; g++)
+    for (size_t g = 0; g < flat->n_groups; g++)
         add_group(body, kr_text_copy(flat->group[g]));
     for (int d = 0; d < 4; d++)
-        body->side[d] = flat->first_hole > 3 ? d : 0;
+        body->side[d] = d;
     body->side[4] = (int)body->n_groups;
     body->side[5] = (int)body->n_groups + 1;
     add_group(body, kr_text_copy("front"));
@@ -92,7 +91,7 @@ static void add_stl_body(struct kr_block_body *body, const struct kr_case_stl *s
 
 /** Whether the plate is more than a rectangle: then its curves cut, too. */
 static int has_curves(const struct kr_plate_body *flat) {
-    return flat->first_hole == 1 || flat->n_groups > (size_t)flat->first_hole;
+    return flat->n_groups > KR_OUTLINE_SIDES;
 }
 
 struct kr_block_body *kr_block_body_of(const struct kr_block *block) {

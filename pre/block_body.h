@@ -13,7 +13,7 @@ struct kr_block_body {
     size_t n[3];    /* cells along x, y, z */
     double spacing; /* m */
     size_t n_groups;
-    char **group;   /* names: left, right, bottom, top (or outline), front, back, hole_1, ..., void_1, ... */
+    char **group;   /* names: the plate's, front, back, void_1, ... */
     int side[6];    /* groups of the block's sides: x low and high, y, z */
     int first_void;
     size_t n_cutters;

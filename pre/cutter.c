@@ -5,6 +5,7 @@
 #include "cutter.h"
 
 #include "cgal_surface.h"
+#include "outline.h"
 
 #include <math.h>
 
@@ -32,8 +33,8 @@ static double at_cylinder(const struct kr_cutter *c, const double q[3]) {
 }
 
 /** Whether a piece of a plate's curves is a surface here, and no side of the lattice. */
-static int counts(const struct kr_plate_body *plate, const struct kr_piece *piece) {
-    return plate->first_hole == 1 || piece->group >= plate->first_hole;
+static int counts(const struct kr_piece *piece) {
+    return piece->group >= KR_OUTLINE_SIDES;
 }
 
 /** Distance from the nearest curve, and that curve's group. */
@@ -42,7 +43,7 @@ static double nearest_piece(const struct kr_plate_body *plate, const double p[3]
     for (size_t c = 0; c < plate->exact.n_curves; c++)
         for (size_t k = 0; k < plate->exact.curve[c].n; k++) {
             const struct kr_piece *piece = &plate->exact.curve[c].piece[k];
-            double distance = counts(plate, piece) ? kr_piece_distance(piece, p) : INFINITY;
+            double distance = counts(piece) ? kr_piece_distance(piece, p) : INFINITY;
             if (distance < least) {
                 least = distance;
                 *group = piece->group;
