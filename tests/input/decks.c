@@ -312,6 +312,24 @@ static const struct row {
      "case.yaml:6:42: geometry.holes.0.radius: the hole's diameter of 0.052 m is more than the "
      "plate's longer side\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_voids_without_depth", "  height: 25 mm\n",
+     "  height: 25 mm\n  voids: [{centre: [5 mm, 5 mm, 1 mm], radius: 1 mm}]\n", NULL, NULL,
+     "case.yaml:5:12: geometry.voids: voids need a solid; expected geometry.depth: 10 mm\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_depth_of_no_layers", "  height: 25 mm\n", "  height: 25 mm\n  depth: 1.04 mm\n", NULL, NULL,
+     "case.yaml:5:10: geometry.depth: 0.00104 m is no whole number of spacings of 0.0001 m; the "
+     "nearest that is: 0.001 m\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_void_of_another_shape", "  height: 25 mm\n",
+     "  height: 25 mm\n  depth: 2 mm\n  voids: [{shape: cylinder, centre: [5 mm, 5 mm, 1 mm], radius: 1 mm}]\n",
+     NULL, NULL,
+     "case.yaml:6:12: geometry.voids.0.length: missing; expected length: 4 mm for shape cylinder\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_void_outside", "  height: 25 mm\n",
+     "  height: 25 mm\n  depth: 2 mm\n  voids: [{centre: [5 mm, 5 mm, 4 mm], radius: 1 mm}]\n", NULL, NULL,
+     "case.yaml:6:21: geometry.voids.0.centre: the void lies outside the body of 0.05 m x 0.025 m x "
+     "0.002 m, 0.001 m from it\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_pores_by_two_words", "count: 3,", "count: 3, porosity: 0.1,", NULL, NULL,
      "case.yaml:7:31: geometry.pores.porosity: pores are given by just one of count, porosity and "
      "file\n"
