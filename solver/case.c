@@ -126,8 +126,8 @@ static const struct kr_deck_key nodes_keys[] = {
      .text = "Reach of the bonds; 3 to 6 spacings, at least 2."},
     {"partial_volume", KR_DECK_CHOICE, AT(partial_volume), .words = KR_PARTIAL_VOLUME_WORDS,
      .fallback = "exact-centroid",
-     .text = "Share of a cell that counts where the horizon cuts it: `exact`, the area of the cell "
-             "inside the circle, the mean of both ends of a bond; `exact-centroid`: the same, the bond "
+     .text = "Share of a cell that counts where the horizon cuts it: `exact`, the area (volume) of the "
+             "cell inside the circle (sphere), the mean of both ends of a bond; `exact-centroid`: the same, the bond "
              "reaching to the centroid of that part; `hhb`: linear over the width of the cell, the "
              "mean of both ends, and the default of nodes that came without cells; `none`: all or "
              "nothing; "
@@ -141,9 +141,9 @@ static const struct kr_deck_key nodes_keys[] = {
     {"surface_deformation", KR_DECK_CHOICE, AT(surface_deformation),
      .words = KR_DEFORMATION_WORDS, .fallback = "mean-over-axes",
      .text = "The homogeneous deformation of the energy correction. `mean-over-axes`: the mean of "
-             "both uniaxial strains, smooth and safe; `uniaxial-y`, `uniaxial-x`: the paper's, exact "
-             "for a load in that direction, but rough at its edges and impossible between close "
-             "holes; `isotropic`."},
+             "the uniaxial strains along all axes, smooth and safe; `uniaxial-y`, `uniaxial-x`, in 3D "
+             "also `uniaxial-z`: the paper's, exact for a load in that direction, but rough at its "
+             "edges and impossible between close holes; `isotropic`."},
     {"sets", LIST_OF(KR_DECK_MAP, struct kr_case_set, set_keys), .offset = AT(sets),
      .text = "Named sets of nodes, for loads and no-fail zones: `top: {within: 0.3 mm, of: top}` "
              "or `{lower: [0 mm, 0 mm], upper: [1 mm, 2 mm]}`."},

@@ -14,7 +14,7 @@
 #define KR_OUTLINE_WORDS "rectangle polygon disc ring"
 #define KR_PARTIAL_VOLUME_WORDS "hhb none hhb-one-sided exact exact-centroid"
 #define KR_SURFACE_WORDS "energy none volume force-density"
-#define KR_DEFORMATION_WORDS "uniaxial-y uniaxial-x isotropic mean-over-axes"
+#define KR_DEFORMATION_WORDS "uniaxial-y uniaxial-x isotropic mean-over-axes uniaxial-z"
 #define KR_MODEL_WORDS "plane-stress plane-strain"
 #define KR_PRESET_WORDS "none plates-paper"
 enum kr_preset { KR_PRESET_NONE, KR_PRESET_PLATES_PAPER };
@@ -40,7 +40,7 @@ enum kr_surface_correction {
     KR_SURFACE_VOLUME,
     KR_SURFACE_FORCE_DENSITY,
 };
-enum kr_deformation { KR_UNIAXIAL_Y, KR_UNIAXIAL_X, KR_ISOTROPIC, KR_MEAN_OVER_AXES };
+enum kr_deformation { KR_UNIAXIAL_Y, KR_UNIAXIAL_X, KR_ISOTROPIC, KR_MEAN_OVER_AXES, KR_UNIAXIAL_Z };
 enum kr_model { KR_PLANE_STRESS, KR_PLANE_STRAIN };
 
 /* A hole; what follows the radius is for other shapes than the circle. */

@@ -153,6 +153,12 @@ static void check_times(struct kr_deck *deck, const struct kr_case *c) {
             kr_deck_fault(deck, &at[i], "%g s is after end_time, %g s", at[i], c->end_time);
 }
 
+static void check_deformation(struct kr_deck *deck, const struct kr_case *c) {
+    if (c->surface_deformation == KR_UNIAXIAL_Z && c->model <= KR_PLANE_STRAIN)
+        kr_deck_fault(deck, &c->surface_deformation,
+                      "uniaxial-z is for bodies in 3D; a plate has x and y");
+}
+
 static void check_law(struct kr_deck *deck, const struct kr_case *c) {
     char known[256] = "";
     if (!c->law || kr_law_named(c->law))
@@ -174,6 +180,7 @@ void kr_case_check(struct kr_deck *deck, const struct kr_case *c) {
     for (size_t i = 0; i < c->boxes.count; i++)
         if (kr_deck_given(deck, boxes[i].lower) && kr_deck_given(deck, boxes[i].upper))
             check_box(deck, boxes[i].lower, boxes[i].upper);
+    check_deformation(deck, c);
     check_law(deck, c);
 }
 
