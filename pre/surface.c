@@ -44,7 +44,7 @@ static double bond_energy(const struct kr_material *m, const double xi[3], const
         square += xi[d] * xi[d];
     }
     double e = q / square;
-    return m->micromodulus * sqrt(square) * m->law->energy(e / (1 + sqrt(1 + e)));
+    return kr_material_micromodulus(m, sqrt(square)) * sqrt(square) * m->law->energy(e / (1 + sqrt(1 + e)));
 }
 
 /* What one bond of the fine lattice holds, its volume not counted: the mean over the strains. */
