@@ -8,7 +8,9 @@
  *
  *    2D  polygon, counter-clockwise; nodes in the middle of sides are corners like all others
  *    3D  4 or 10 tetrahedron, 5 or 13 pyramid, 6 or 15 wedge, 8 or 20 hexahedron; corners first,
- *        then the middles of the edges, both in the order of VTK
+ *        then the middles of the edges, both in the order of VTK;
+ *        24 or more, a multiple of 4: a polyhedron, cut into so many tetrahedra, one after the
+ *        other (where fewer would do, one is cut in four about its middle)
  *
  * Nodes inside faces or cells (quadrilaterals of 9 nodes, hexahedra of 27, ...) are left out.
  */

@@ -206,11 +206,25 @@ static void add_fan(size_t n, const double *point, double radius, struct kr_ball
     }
 }
 
+/* The tetrahedra of a polyhedron. */
+static void add_pieces(size_t n, const double *point, double radius, struct kr_ball_part *sum) {
+    for (size_t k = 0; k < n; k += 4) {
+        struct kr_ball_part part = kr_ball_solid(4, point + 3 * k, radius);
+        sum->volume += part.volume;
+        for (int d = 0; d < 3; d++)
+            sum->moment[d] += part.moment[d];
+    }
+}
+
 struct kr_ball_part kr_ball_solid(size_t n, const double *point, double radius) {
     const struct kr_solid *solid = kr_solid(n);
     struct kr_ball_part sum = {0};
     size_t number[KR_MOST_SOLID], vertex[KR_MOST_FACE];
     double face[3 * KR_MOST_FACE];
+    if (kr_solid_is_pieces(n)) {
+        add_pieces(n, point, radius, &sum);
+        return sum;
+    }
     for (size_t k = 0; k < n; k++)
         number[k] = k;
     for (size_t f = 0; f < solid->n_faces; f++) {

@@ -16,6 +16,7 @@
 /* In a plate two components, in a solid three. */
 #define PLACE_OF(where)                                                                            \
     .type = KR_DECK_VECTOR, .offset = (where), .unit = "m", .count = 3, .fewest = 2
+#define SPACE_OF(where) .type = KR_DECK_VECTOR, .offset = (where), .unit = "m", .count = 3
 #define NUMBER_OF(where, si) .type = KR_DECK_NUMBER, .offset = (where), .unit = (si)
 #define LIST_OF(what, type_, keys_)                                                                \
     .type = (what), .item_size = sizeof(type_), .keys = (keys_), .fallback = ""
@@ -78,6 +79,35 @@ static const struct kr_deck_key pores_keys[] = {
     {NULL},
 };
 
+#define VOID_AT(field) offsetof(struct kr_case_void, field)
+static const struct kr_deck_key void_keys[] = {
+    {"centre", SPACE_OF(VOID_AT(centre)), .fallback = "",
+     .text = "Centre `[x, y, z]`; it may lie outside, and voids may overlap each other. An STL file "
+             "needs none: its origin comes to lie there."},
+    {"radius", LENGTH_OF(VOID_AT(radius)), POSITIVE, .text = "Of a sphere or cylinder."},
+    {"shape", KR_DECK_CHOICE, VOID_AT(shape), .words = KR_VOID_WORDS, .fallback = "sphere",
+     .text = "`stl`: what the closed surface in a file bounds."},
+    {"radii", SPACE_OF(VOID_AT(radii)), .fallback = "", POSITIVE,
+     .text = "Half axes of an ellipsoid, along x, y and z."},
+    {"length", LENGTH_OF(VOID_AT(length)), POSITIVE, .text = "Of a cylinder between its flat ends."},
+    {"axis", .type = KR_DECK_VECTOR, .offset = VOID_AT(axis), .unit = "1", .count = 3, .fallback = "",
+     .text = "Direction of a cylinder; not given: along z."},
+    {"file", KR_DECK_TEXT, VOID_AT(file), .fallback = "",
+     .text = "STL file, binary or ASCII; a path from the deck's folder."},
+    {"unit", LENGTH_OF(VOID_AT(unit)), POSITIVE, .text = "What 1 in the STL file stands for, `1 mm`."},
+    {NULL},
+};
+
+#define BODY_AT(field) offsetof(struct kr_case, body.field)
+static const struct kr_deck_key body_keys[] = {
+    {"file", KR_DECK_TEXT, BODY_AT(file), .fallback = "",
+     .text = "STL file of a closed surface, binary or ASCII; a path from the deck's folder."},
+    {"unit", LENGTH_OF(BODY_AT(unit)), POSITIVE, .text = "What 1 in the file stands for, `1 mm`."},
+    {"centre", SPACE_OF(BODY_AT(centre)), .fallback = "",
+     .text = "Where the origin of the file comes to lie; not given: at the origin."},
+    {NULL},
+};
+
 static const struct kr_deck_key geometry_keys[] = {
     {"width", NUMBER_OF(AT(width), "m"), POSITIVE,
      .text = "Width of the plate (x), or of the frame around its outline. Its lower left corner is "
@@ -87,6 +117,13 @@ static const struct kr_deck_key geometry_keys[] = {
      .text = "Shape of the plate where it is no rectangle."},
     {"holes", LIST_OF(KR_DECK_LIST, struct kr_case_hole, hole_keys), .offset = AT(holes),
      .text = "Holes at given places."},
+    {"depth", NUMBER_OF(AT(depth), "m"), .fallback = "", POSITIVE,
+     .text = "Makes the plate a solid from z = 0 to this depth, its holes going through."},
+    {"voids", LIST_OF(KR_DECK_LIST, struct kr_case_void, void_keys), .offset = AT(voids),
+     .text = "Voids in a solid; the boundaries `void_1`, ... of the mesh, in this order."},
+    {"body", KR_DECK_SECTION, .keys = body_keys,
+     .text = "A solid from an STL file, within width by height by depth, in place of outline and "
+             "holes."},
     {"pores", KR_DECK_SECTION, AT(pores), .keys = pores_keys,
      .text = "Round holes at random places."},
     {NULL},
@@ -121,6 +158,23 @@ static const struct kr_deck_key set_keys[] = {
     {"lower", PLACE_OF(SET_AT(lower)), .fallback = "",
      .text = "Or nodes in a box: its corner of least coordinates. Goes with `upper`."},
     {"upper", PLACE_OF(SET_AT(upper)), .fallback = "", .text = "Its opposite corner."},
+    {"centre", PLACE_OF(SET_AT(centre)), .fallback = "",
+     .text = "Or nodes in a disc (ball in 3D): its centre. Goes with `radius`."},
+    {"radius", NUMBER_OF(SET_AT(radius), "m"), .fallback = "", POSITIVE, .text = "Its radius."},
+    {"through", PLACE_OF(SET_AT(through)), .fallback = "",
+     .text = "Or nodes on one side of a line (plane in 3D): a point on it. Goes with `normal`."},
+    {"normal", KR_DECK_VECTOR, SET_AT(normal), "1", .fallback = "", .count = 3, .fewest = 2,
+     .text = "Direction, of any length, to the side that counts."},
+    {"points", KR_DECK_NUMBERS, SET_AT(points), .unit = "m", .count = 2, .fallback = "",
+     .text = "Or nodes in a polygon (2D): its corners in turn."},
+    {"union", KR_DECK_TEXTS, SET_AT(join), .fallback = "",
+     .text = "Or all nodes of these sets, which stand above this one or in the mesh."},
+    {"intersection", KR_DECK_TEXTS, SET_AT(meet), .fallback = "",
+     .text = "Or the nodes that are in all of these sets."},
+    {"difference", KR_DECK_TEXTS, SET_AT(less), .fallback = "",
+     .text = "Or the nodes of the first set that are in none of the others."},
+    {"not", KR_DECK_TEXTS, SET_AT(without), .fallback = "",
+     .text = "Or the nodes that are in none of these sets."},
     {NULL},
 };
 
@@ -149,7 +203,8 @@ static const struct kr_deck_key nodes_keys[] = {
              "edges and impossible between close holes; `isotropic`."},
     {"sets", LIST_OF(KR_DECK_MAP, struct kr_case_set, set_keys), .offset = AT(sets),
      .text = "Named sets of nodes, for loads and no-fail zones: `top: {within: 0.3 mm, of: top}` "
-             "or `{lower: [0 mm, 0 mm], upper: [1 mm, 2 mm]}`."},
+             "or `{lower: [0 mm, 0 mm], upper: [1 mm, 2 mm]}`. A set is one of boundary, box, disc, "
+             "half space, polygon and a combination of other sets."},
     {NULL},
 };
 

@@ -12,6 +12,7 @@
 #define KR_GRID_WORDS "near-boundary uniform free voronoi"
 #define KR_HOLE_WORDS "circle ellipse rectangle polygon slot"
 #define KR_OUTLINE_WORDS "rectangle polygon disc ring"
+#define KR_VOID_WORDS "sphere ellipsoid cylinder stl"
 #define KR_PARTIAL_VOLUME_WORDS "hhb none hhb-one-sided exact exact-centroid"
 #define KR_SURFACE_WORDS "energy none volume force-density"
 #define KR_DEFORMATION_WORDS "uniaxial-y uniaxial-x isotropic mean-over-axes uniaxial-z"
@@ -28,6 +29,7 @@ enum kr_hole_shape {
     KR_HOLE_SLOT
 };
 enum kr_outline { KR_OUTLINE_RECTANGLE, KR_OUTLINE_POLYGON, KR_OUTLINE_DISC, KR_OUTLINE_RING };
+enum kr_void_shape { KR_VOID_SPHERE, KR_VOID_ELLIPSOID, KR_VOID_CYLINDER, KR_VOID_STL };
 enum kr_partial_volume {
     KR_PARTIAL_VOLUME_HHB,
     KR_PARTIAL_VOLUME_NONE,
@@ -67,6 +69,25 @@ struct kr_case_outline {
     double corner_radius;       /* m: polygon */
 };
 
+/* A body given by its closed surface in an STL file. */
+struct kr_case_stl {
+    const char *file;
+    double unit;      /* m: what 1 in the file stands for */
+    double centre[3]; /* m: where its origin comes to lie */
+};
+
+/* A void in a solid. */
+struct kr_case_void {
+    double centre[3]; /* m; of an STL file: where its origin comes to lie */
+    int shape;        /* enum kr_void_shape */
+    double radius;    /* m: sphere and cylinder */
+    double radii[3];  /* m: half axes of an ellipsoid */
+    double length;    /* m: of a cylinder */
+    double axis[3];   /* direction of a cylinder, of any length */
+    const char *file; /* stl */
+    double unit;      /* m: stl */
+};
+
 struct kr_case_pores {
     int64_t count, seed, attempts;
     double radius[2];     /* m: least and most */
@@ -79,6 +100,10 @@ struct kr_case_set {
     double within;    /* m: nodes within this distance ... */
     const char *of;   /* ... of this boundary */
     double lower[3], upper[3]; /* m: or nodes in this box */
+    double centre[3], radius;  /* m: or in this disc or ball */
+    double through[3], normal[3]; /* m, 1: or on the side of a line or plane that `normal` shows to */
+    struct kr_deck_list points;   /* double, m: or in this polygon (2D) */
+    struct kr_deck_list join, meet, less, without; /* const char *: or made of other sets */
 };
 
 struct kr_case_crack {
@@ -107,6 +132,9 @@ struct kr_case {
     double width, height; /* m: plate with its lower left corner at (0, 0) */
     struct kr_case_outline outline;
     struct kr_deck_list holes;  /* struct kr_case_hole */
+    double depth;               /* m: of a solid, from z = 0; 0: a plate */
+    struct kr_deck_list voids;  /* struct kr_case_void */
+    struct kr_case_stl body;    /* instead of outline and holes; no file: none */
     struct kr_case_pores pores; /* count 0: none */
 
     /* mesh */
@@ -183,8 +211,24 @@ void kr_case_check(struct kr_deck *deck, const struct kr_case *c);
 /** Dimensions of the body: 3 for a solid, else 2. */
 int kr_case_dim(const struct kr_case *c);
 
+/** The part of it that looks at one set of nodes. */
+void kr_case_check_set(struct kr_deck *deck, const struct kr_case *c,
+                       const struct kr_case_set *set);
+
+/** Whether a vector has as many components as the model asks for; a fault where not. */
+int kr_case_check_count(struct kr_deck *deck, const struct kr_case *c, const void *vector);
+
+/** Fault a box whose upper corner is not above the lower one. */
+void kr_case_check_box(struct kr_deck *deck, const double *lower, const double *upper, int dim);
+
+/** Letters, digits, _ and -: a name becomes a dataset of HDF5 and a column of CSV. */
+int kr_case_is_name(const char *text);
+
 /** The part of it that looks at outline, holes and pores. */
 void kr_case_check_geometry(struct kr_deck *deck, const struct kr_case *c);
+
+/** The part of it that looks at depth, voids and the body of an STL file. */
+void kr_case_check_solid(struct kr_deck *deck, const struct kr_case *c);
 
 /** Warn of what is doubtful in a case without faults. */
 void kr_case_warn(struct kr_deck *deck, const struct kr_case *c);

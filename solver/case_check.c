@@ -43,14 +43,13 @@ static void check_mesh(struct kr_deck *deck, const struct kr_case *c) {
                       c->horizon, narrow);
 }
 
-/* Letters, digits, _ and -: a name becomes a dataset of HDF5 and a column of CSV. */
-static int is_name(const char *text) {
+int kr_case_is_name(const char *text) {
     const char *good = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
     return *text && !text[strspn(text, good)];
 }
 
 /* Whether a vector that the deck gives has one component an axis; a fault if not. */
-static int check_count(struct kr_deck *deck, const struct kr_case *c, const void *vector) {
+int kr_case_check_count(struct kr_deck *deck, const struct kr_case *c, const void *vector) {
     size_t count = kr_deck_count(deck, vector), dim = (size_t)kr_case_dim(c);
     if (count && count != dim)
         kr_deck_fault(deck, vector, "found %zu component%s, expected %zu: the model is %s", count,
@@ -59,38 +58,11 @@ static int check_count(struct kr_deck *deck, const struct kr_case *c, const void
     return count == dim;
 }
 
-static void check_box(struct kr_deck *deck, const double *lower, const double *upper, int dim) {
+void kr_case_check_box(struct kr_deck *deck, const double *lower, const double *upper, int dim) {
     for (int k = 0; k < dim; k++)
         if (lower[k] >= upper[k])
             kr_deck_fault(deck, upper, "%c = %g m is not above that of `lower`, %g m", "xyz"[k],
                           upper[k], lower[k]);
-}
-
-static void check_set(struct kr_deck *deck, const struct kr_case *c,
-                      const struct kr_case_set *set) {
-    int within = kr_deck_given(deck, &set->within), of = kr_deck_given(deck, &set->of);
-    int lower = kr_deck_given(deck, set->lower), upper = kr_deck_given(deck, set->upper);
-    if (!is_name(set->name))
-        kr_deck_fault(deck, &set->name,
-                      "a set's name may have letters, digits, '_' and '-', no others");
-    if ((within || of) && (lower || upper))
-        kr_deck_fault(deck, &set->name,
-                      "both a boundary (within, of) and a box (lower, upper); a "
-                      "set is one of them");
-    else if (within != of)
-        kr_deck_fault(deck, &set->name, "'%s' goes with '%s', which is missing",
-                      within ? "within" : "of", within ? "of" : "within");
-    else if (lower != upper)
-        kr_deck_fault(deck, &set->name, "'%s' goes with '%s', which is missing",
-                      lower ? "lower" : "upper", lower ? "upper" : "lower");
-    else if (lower && check_count(deck, c, set->lower) && check_count(deck, c, set->upper))
-        check_box(deck, set->lower, set->upper, kr_case_dim(c));
-    else if (!lower && !within)
-        kr_deck_fault(deck, &set->name,
-                      "empty; expected 'within' and 'of', or 'lower' and 'upper'");
-    if (of && set->of && !is_name(set->of))
-        kr_deck_fault(deck, &set->of,
-                      "found '%.40s', expected the name of a boundary, such as 'top'", set->of);
 }
 
 static int is_all_free(const struct kr_deck_formula formula[3]) {
@@ -119,7 +91,7 @@ static void check_load(struct kr_deck *deck, const struct kr_case *c,
         kr_deck_fault(deck, &load->set,
                       "the load does nothing; expected one of displacement, velocity, traction and "
                       "body_force");
-    else if (check_count(deck, c, first) && is_all_free(first))
+    else if (kr_case_check_count(deck, c, first) && is_all_free(first))
         kr_deck_fault(deck, first, "all components are free; the load does nothing");
 }
 
@@ -127,7 +99,7 @@ static void check_sets_and_loads(struct kr_deck *deck, const struct kr_case *c) 
     const struct kr_case_set *sets = c->sets.item;
     const struct kr_case_load *loads = c->loads.item;
     for (size_t i = 0; i < c->sets.count; i++)
-        check_set(deck, c, &sets[i]);
+        kr_case_check_set(deck, c, &sets[i]);
     for (size_t i = 0; i < c->loads.count; i++)
         check_load(deck, c, &loads[i]);
 }
@@ -138,7 +110,7 @@ static void check_cracks(struct kr_deck *deck, const struct kr_case *c) {
         const double *from = cracks[i].from, *to = cracks[i].to;
         int outside = larger((double[]){from[0], to[0]}) <= 0 || fmin(from[0], to[0]) >= c->width ||
                       larger((double[]){from[1], to[1]}) <= 0 || fmin(from[1], to[1]) >= c->height;
-        if (!check_count(deck, c, from) || !check_count(deck, c, to))
+        if (!kr_case_check_count(deck, c, from) || !kr_case_check_count(deck, c, to))
             continue;
         if (from[0] == to[0] && from[1] == to[1])
             kr_deck_fault(deck, to, "the crack ends where it begins, (%g, %g) m", to[0], to[1]);
@@ -197,12 +169,13 @@ void kr_case_check(struct kr_deck *deck, const struct kr_case *c) {
     const struct kr_case_box *boxes = c->boxes.item;
     check_mesh(deck, c);
     kr_case_check_geometry(deck, c);
+    kr_case_check_solid(deck, c);
     check_sets_and_loads(deck, c);
     check_cracks(deck, c);
     check_times(deck, c);
     for (size_t i = 0; i < c->boxes.count; i++)
         if (kr_deck_given(deck, boxes[i].lower) && kr_deck_given(deck, boxes[i].upper))
-            check_box(deck, boxes[i].lower, boxes[i].upper, 2);
+            kr_case_check_box(deck, boxes[i].lower, boxes[i].upper, 2);
     check_deformation(deck, c);
     check_law(deck, c);
 }

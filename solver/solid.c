@@ -33,6 +33,11 @@ const struct kr_solid *kr_solid(size_t vertices) {
     return NULL;
 }
 
+size_t kr_solid_n_faces(size_t vertices) {
+    const struct kr_solid *solid = kr_solid(vertices);
+    return solid ? solid->n_faces : kr_solid_is_pieces(vertices) ? vertices : 0;
+}
+
 /** The vertex in the middle of the edge between two corners. */
 static size_t middle_of(const struct kr_solid *solid, const size_t *cell, int a, int b) {
     size_t k = 0;
@@ -43,6 +48,8 @@ static size_t middle_of(const struct kr_solid *solid, const size_t *cell, int a,
 }
 
 size_t kr_solid_face(size_t n, const size_t *cell, size_t face, size_t *vertex) {
+    if (kr_solid_is_pieces(n))
+        return kr_solid_face(4, cell + 4 * (face / 4), face % 4, vertex);
     const struct kr_solid *solid = kr_solid(n);
     const unsigned char *corner = solid->face[face];
     size_t corners = solid->face_corners[face], count = 0;
@@ -82,10 +89,11 @@ void kr_solid_middle(size_t n, const double *point, double middle[3]) {
 double kr_solid_radius(size_t n, const double *point, double vertices) {
     size_t number[KR_MOST_SOLID], vertex[KR_MOST_FACE];
     double face[3 * KR_MOST_FACE], middle[3];
+    if (n <= 8 || kr_solid_is_pieces(n))
+        return vertices; /* a mean of corners is never farther than they are */
     for (size_t k = 0; k < n; k++)
         number[k] = k;
-    /* A mean of corners is never farther than they are. */
-    for (size_t f = 0; n > 8 && f < kr_solid(n)->n_faces; f++) {
+    for (size_t f = 0; f < kr_solid(n)->n_faces; f++) {
         size_t corners = kr_solid_face(n, number, f, vertex);
         for (size_t k = 0; k < corners; k++)
             memcpy(face + 3 * k, point + 3 * vertex[k], 3 * sizeof *face);

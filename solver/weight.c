@@ -14,7 +14,7 @@
 #include <string.h>
 
 /* MOST_NEAR as in bonds.c, which stops where a node has more; MOST_KEPT: 0.8 GB of weights. */
-enum { MOST_CORNERS = 64, MOST_NEAR = 4096, MOST_KEPT = 100000000 };
+enum { MOST_CORNERS = 1024, MOST_NEAR = 4096, MOST_KEPT = 100000000 };
 
 /* Shares below this are rounding of cells that the circle only touches. */
 static const double LEAST = 1e-12;
@@ -67,10 +67,11 @@ static double radius_of(const struct kr_nodes *nodes, size_t i) {
 
 static void check_corners(const struct kr_nodes *nodes, size_t i) {
     size_t n = corners_of(nodes, i);
-    if (nodes->dim == 2 ? n > MOST_CORNERS : !kr_solid(n))
+    if (n > MOST_CORNERS || (nodes->dim == 3 && !kr_solid_n_faces(n)))
         kr_stop(KR_EXIT_INPUT, "the cell of node %zu has %zu corners; expected %s", i, n,
-                nodes->dim == 2 ? "at most 64" : "those of a tetrahedron, pyramid, wedge or "
-                                                 "hexahedron");
+                nodes->dim == 2 ? "at most 1024"
+                                : "those of a tetrahedron, pyramid, wedge, hexahedron or of at "
+                                  "most 256 tetrahedra");
 }
 
 static void measure_cells(struct kr_weights *w) {
@@ -158,8 +159,8 @@ static struct part part_of(const struct kr_weights *w, size_t i, size_t j) {
     if (distance - w->radius[j] >= w->horizon)
         return (struct part){0};
     seen_from(nodes, j, here, corner);
-    /* Up to 8 corners: flat faces, and fans about the mean of four. */
-    int side = dim == 3 && n <= 8 ? side_of(n, corner, xi, distance, w->horizon) : 0;
+    /* Flat faces, or fans about the mean of four corners: no middles of edges. */
+    int side = dim == 3 && (n <= 8 || kr_solid_is_pieces(n)) ? side_of(n, corner, xi, distance, w->horizon) : 0;
     if (side)
         return side > 0 ? whole : (struct part){0};
     return dim == 2 ? over_area(kr_disc_polygon(n, corner, w->horizon), nodes->volume[j])

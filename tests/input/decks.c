@@ -276,7 +276,8 @@ static const struct row {
      "set is one of them\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_set_of_no_kind", "{within: 0.3 mm, of: top}", "{}", NULL, NULL,
-     "case.yaml:14:5: nodes.sets.top: empty; expected 'within' and 'of', or 'lower' and 'upper'\n"
+     "case.yaml:14:5: nodes.sets.top: empty; expected 'within' and 'of', 'lower' and 'upper', 'centre' "
+     "and 'radius', 'through' and 'normal', 'points', 'union', 'intersection', 'difference' or 'not'\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_set_half_given", "{within: 0.3 mm, of: top}", "{within: 0.3 mm}", NULL, NULL,
      "case.yaml:14:11: nodes.sets.top: 'within' goes with 'of', which is missing\n"
