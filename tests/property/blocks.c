@@ -24,11 +24,8 @@ static const int deformations[] = {KR_UNIAXIAL_X, KR_UNIAXIAL_Y, KR_UNIAXIAL_Z, 
                                    KR_MEAN_OVER_AXES};
 enum { N_VOLUMES = 5, N_DEFORMATIONS = 5 };
 
-/* c of a solid, 12 E/(pi delta^4), which makes the energy of an even stretch right at nu = 1/4. */
 static struct kr_material solid_material(void) {
-    struct kr_material m = kr_pmma(KR_PLANE_STRAIN, HORIZON);
-    m.micromodulus = 12 * KR_PMMA_MODULUS / (M_PI * pow(HORIZON, 4));
-    return m;
+    return kr_pmma(KR_SOLID, HORIZON);
 }
 
 static struct kr_nodes *block(void) {
