@@ -24,7 +24,7 @@ static const char usage[] =
     "\n"
     "Turns the cells of a mesh into nodes. MESH, left out: plate.msh in the case's folder, is\n"
     "  .msh                             gmsh 2.2 or 4.1, ASCII or binary; Fluent\n"
-    "  .inp .e .exo .med .vtu .vtk .bdf .unv .xdmf ...   what meshio reads (docs/formats.md)\n"
+    "  .inp .cdb .e .exo .med .vtu .vtk .bdf .unv .xdmf ...   others (docs/formats.md)\n"
     "  .step .iges .brep                bodies of CAD, meshed by gmsh with cells of mesh.spacing\n"
     "  .csv .txt                        points with volumes: Peridigm, PeriLab, CSV; with files of\n"
     "                                   node numbers, one a set\n"
