@@ -47,17 +47,44 @@ static const struct kr_deck_key hole_keys[] = {
 };
 
 #define OUTLINE_AT(field) offsetof(struct kr_case_outline, field)
+#define OUTLINE_SHAPE_KEYS                                                                         \
+    {"shape", KR_DECK_CHOICE, OUTLINE_AT(shape), .words = KR_OUTLINE_WORDS,                        \
+     .fallback = "rectangle",                                                                      \
+     .text = "`rectangle`: all of width by height, or of a size; `cad`: the plane faces of a "     \
+             "file, with their holes."},                                                           \
+    {"centre", VECTOR_OF(OUTLINE_AT(centre)), .fallback = "",                                      \
+     .text = "Centre of a disc, ring or rectangle; not given: the middle of width by height. Of "  \
+             "a polygon or a cad file: where its origin comes to lie; not given: (0, 0)."},        \
+    {"radius", LENGTH_OF(OUTLINE_AT(radius)), POSITIVE,                                            \
+     .text = "Outer radius of a disc or ring."},                                                   \
+    {"inner_radius", LENGTH_OF(OUTLINE_AT(inner_radius)), POSITIVE, .text = "Of a ring."},         \
+    {"points", KR_DECK_NUMBERS, OUTLINE_AT(points), .unit = "m", .count = 2, .fallback = "",       \
+     .text = "Corners of a polygon in turn."},                                                     \
+    {"corner_radius", LENGTH_OF(OUTLINE_AT(corner_radius)), NOT_NEGATIVE,                          \
+     .text = "Radius that rounds the corners of a rectangle or polygon; not given: sharp."},       \
+    {"size", VECTOR_OF(OUTLINE_AT(size)), .fallback = "", POSITIVE,                                \
+     .text = "Sides of a rectangle, along x and y before it is turned; not given: width and "      \
+             "height."},                                                                           \
+    {"angle", NUMBER_OF(OUTLINE_AT(angle), "rad"), .fallback = "",                                 \
+     .text = "Turns the shape about its centre, counter-clockwise."},                              \
+    {"file", KR_DECK_TEXT, OUTLINE_AT(file), .fallback = "",                                       \
+     .text = "STEP, IGES or BREP file of a `cad` outline; a path from the deck's folder."}
+
+static const struct kr_deck_key part_keys[] = {
+    OUTLINE_SHAPE_KEYS,
+    {"operation", KR_DECK_CHOICE, OUTLINE_AT(operation), .words = KR_OPERATION_WORDS,
+     .fallback = "union", .text = "What the part does to the parts before it."},
+    {"name", KR_DECK_TEXT, OUTLINE_AT(name), .fallback = "",
+     .text = "Name of its edges as a boundary of the mesh; not given: `outline`."},
+    {NULL},
+};
+
 static const struct kr_deck_key outline_keys[] = {
-    {"shape", KR_DECK_CHOICE, OUTLINE_AT(shape), .words = KR_OUTLINE_WORDS,
-     .fallback = "rectangle", .text = "`rectangle`: all of width by height."},
-    {"centre", VECTOR_OF(OUTLINE_AT(centre)), .fallback = "",
-     .text = "Centre of a disc or ring; not given: the middle of width by height."},
-    {"radius", LENGTH_OF(OUTLINE_AT(radius)), POSITIVE, .text = "Outer radius of a disc or ring."},
-    {"inner_radius", LENGTH_OF(OUTLINE_AT(inner_radius)), POSITIVE, .text = "Of a ring."},
-    {"points", KR_DECK_NUMBERS, OUTLINE_AT(points), .unit = "m", .count = 2, .fallback = "",
-     .text = "Corners of a polygon in turn, within width by height."},
-    {"corner_radius", LENGTH_OF(OUTLINE_AT(corner_radius)), NOT_NEGATIVE,
-     .text = "Radius that rounds the corners of a polygon; not given: sharp."},
+    OUTLINE_SHAPE_KEYS,
+    {"parts", LIST_OF(KR_DECK_LIST, struct kr_case_outline, part_keys), .offset = OUTLINE_AT(parts),
+     .text = "Parts that make the outline in turn, each joined to those before it or taken away "
+             "from them; in place of `shape`. Within width by height; straight edges on its sides "
+             "are the boundaries `left`, `right`, `bottom` and `top`."},
     {NULL},
 };
 
@@ -65,11 +92,32 @@ static const struct kr_deck_key outline_keys[] = {
 static const struct kr_deck_key pores_keys[] = {
     {"count", KR_DECK_INTEGER, PORES_AT(count), .fallback = "0", .least = 0, .most = 1e6,
      .text = "How many pores kirsch-pores throws at random; 0: none."},
+    {"porosity", NUMBER_OF(PORES_AT(porosity), "1"), .fallback = "0", .least = 0, .most = 0.9,
+     .text = "In place of a count: area of the pores over that of the outline. Met to a "
+             "nanometre of the last radius where the range of radii allows it; the largest pores "
+             "are placed first."},
+    {"file", KR_DECK_TEXT, PORES_AT(file), .fallback = "",
+     .text = "In place of random pores: a file of them, a path from the deck's folder "
+             "([formats.md](formats.md#porestxt))."},
+    {"shape", KR_DECK_CHOICE, PORES_AT(shape), .words = KR_PORE_WORDS, .fallback = "circle",
+     .text = "`ellipse`: at random angles, the radius its long half axis; distances are kept by "
+             "the circle around it."},
+    {"aspect", KR_DECK_VECTOR, PORES_AT(aspect), .unit = "1", .count = 2, .fallback = "",
+     .least = 1, .most = 100,
+     .text = "Least and largest ratio of an ellipse's half axes, drawn evenly between the two."},
     {"radius", VECTOR_OF(PORES_AT(radius)), .fallback = "", POSITIVE,
-     .text =
-         "Least and largest radius; drawn evenly between the two. Needed where there are pores."},
+     .text = "Least and largest radius. Needed where there are random pores."},
+    {"distribution", KR_DECK_CHOICE, PORES_AT(distribution), .words = KR_DISTRIBUTION_WORDS,
+     .fallback = "uniform",
+     .text = "Of the radius between the two: `uniform`; `normal` and `lognormal`, cut off there; "
+             "`by-area`, evenly over the areas of the pores."},
+    {"mean", NUMBER_OF(PORES_AT(mean), "m"), .fallback = "", POSITIVE,
+     .text = "Mean of a normal or lognormal radius before it is cut off."},
+    {"deviation", NUMBER_OF(PORES_AT(deviation), "m"), .fallback = "", POSITIVE,
+     .text = "Its standard deviation."},
     {"edge_diameters", NUMBER_OF(PORES_AT(edge_diameters), "1"), .fallback = "1", NOT_NEGATIVE,
-     .text = "Least distance of a centre from the edges of the plate, in diameters of the pore."},
+     .text = "Least distance of a centre from the edges of the outline, in diameters of the "
+             "pore."},
     {"gap", NUMBER_OF(PORES_AT(gap), "m"), .fallback = "0.3 mm", NOT_NEGATIVE,
      .text = "Least distance between the rims of two holes."},
     {"seed", KR_DECK_INTEGER, PORES_AT(seed), .fallback = "1", .least = 0, .most = 9e15,
@@ -125,7 +173,7 @@ static const struct kr_deck_key geometry_keys[] = {
      .text = "A solid from an STL file, within width by height by depth, in place of outline and "
              "holes."},
     {"pores", KR_DECK_SECTION, AT(pores), .keys = pores_keys,
-     .text = "Round holes at random places."},
+     .text = "Holes at random places."},
     {NULL},
 };
 
