@@ -361,6 +361,7 @@ struct kr_bonds *kr_bonds_create(const struct kr_nodes *nodes, const struct kr_m
     find_lattice(&w);
     w.reach_in_cells = (int)ceil(reach / w.size_of_lattice);
     make_kinds(&w);
+    kr_weights_keep(w.weights, w.search, w.on_lattice);
 
     for_all_slices(&w, count_slice);
     sum_up(b->first, b->n_slices);

@@ -206,6 +206,23 @@ static const struct kr_deck_key set_keys[] = {
     {"lower", PLACE_OF(SET_AT(lower)), .fallback = "",
      .text = "Or nodes in a box: its corner of least coordinates. Goes with `upper`."},
     {"upper", PLACE_OF(SET_AT(upper)), .fallback = "", .text = "Its opposite corner."},
+    {"centre", PLACE_OF(SET_AT(centre)), .fallback = "",
+     .text = "Or nodes in a disc (ball in 3D): its centre. Goes with `radius`."},
+    {"radius", NUMBER_OF(SET_AT(radius), "m"), .fallback = "", POSITIVE, .text = "Its radius."},
+    {"through", PLACE_OF(SET_AT(through)), .fallback = "",
+     .text = "Or nodes on one side of a line (plane in 3D): a point on it. Goes with `normal`."},
+    {"normal", KR_DECK_VECTOR, SET_AT(normal), "1", .fallback = "", .count = 3, .fewest = 2,
+     .text = "Direction, of any length, to the side that counts."},
+    {"points", KR_DECK_NUMBERS, SET_AT(points), .unit = "m", .count = 2, .fallback = "",
+     .text = "Or nodes in a polygon (2D): its corners in turn."},
+    {"union", KR_DECK_TEXTS, SET_AT(join), .fallback = "",
+     .text = "Or all nodes of these sets, which stand above this one or in the mesh."},
+    {"intersection", KR_DECK_TEXTS, SET_AT(meet), .fallback = "",
+     .text = "Or the nodes that are in all of these sets."},
+    {"difference", KR_DECK_TEXTS, SET_AT(less), .fallback = "",
+     .text = "Or the nodes of the first set that are in none of the others."},
+    {"not", KR_DECK_TEXTS, SET_AT(without), .fallback = "",
+     .text = "Or the nodes that are in none of these sets."},
     {NULL},
 };
 
@@ -214,8 +231,8 @@ static const struct kr_deck_key nodes_keys[] = {
      .text = "Reach of the bonds; 3 to 6 spacings, at least 2."},
     {"partial_volume", KR_DECK_CHOICE, AT(partial_volume), .words = KR_PARTIAL_VOLUME_WORDS,
      .fallback = "exact-centroid",
-     .text = "Share of a cell that counts where the horizon cuts it: `exact`, the area of the cell "
-             "inside the circle, the mean of both ends of a bond; `exact-centroid`: the same, the bond "
+     .text = "Share of a cell that counts where the horizon cuts it: `exact`, the area (volume) of the "
+             "cell inside the circle (sphere), the mean of both ends of a bond; `exact-centroid`: the same, the bond "
              "reaching to the centroid of that part; `hhb`: linear over the width of the cell, the "
              "mean of both ends, and the default of nodes that came without cells; `none`: all or "
              "nothing; "
@@ -229,12 +246,13 @@ static const struct kr_deck_key nodes_keys[] = {
     {"surface_deformation", KR_DECK_CHOICE, AT(surface_deformation),
      .words = KR_DEFORMATION_WORDS, .fallback = "mean-over-axes",
      .text = "The homogeneous deformation of the energy correction. `mean-over-axes`: the mean of "
-             "both uniaxial strains, smooth and safe; `uniaxial-y`, `uniaxial-x`: the paper's, exact "
-             "for a load in that direction, but rough at its edges and impossible between close "
-             "holes; `isotropic`."},
+             "the uniaxial strains along all axes, smooth and safe; `uniaxial-y`, `uniaxial-x`, in 3D "
+             "also `uniaxial-z`: the paper's, exact for a load in that direction, but rough at its "
+             "edges and impossible between close holes; `isotropic`."},
     {"sets", LIST_OF(KR_DECK_MAP, struct kr_case_set, set_keys), .offset = AT(sets),
      .text = "Named sets of nodes, for loads and no-fail zones: `top: {within: 0.3 mm, of: top}` "
-             "or `{lower: [0 mm, 0 mm], upper: [1 mm, 2 mm]}`."},
+             "or `{lower: [0 mm, 0 mm], upper: [1 mm, 2 mm]}`. A set is one of boundary, box, disc, "
+             "half space, polygon and a combination of other sets."},
     {NULL},
 };
 

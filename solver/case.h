@@ -18,7 +18,7 @@
 #define KR_VOID_WORDS "sphere ellipsoid cylinder stl"
 #define KR_PARTIAL_VOLUME_WORDS "hhb none hhb-one-sided exact exact-centroid"
 #define KR_SURFACE_WORDS "energy none volume force-density"
-#define KR_DEFORMATION_WORDS "uniaxial-y uniaxial-x isotropic mean-over-axes"
+#define KR_DEFORMATION_WORDS "uniaxial-y uniaxial-x isotropic mean-over-axes uniaxial-z"
 #define KR_MODEL_WORDS "plane-stress plane-strain solid"
 #define KR_MICROMODULUS_WORDS "constant conical"
 #define KR_PRESET_WORDS "none plates-paper"
@@ -55,7 +55,7 @@ enum kr_surface_correction {
     KR_SURFACE_VOLUME,
     KR_SURFACE_FORCE_DENSITY,
 };
-enum kr_deformation { KR_UNIAXIAL_Y, KR_UNIAXIAL_X, KR_ISOTROPIC, KR_MEAN_OVER_AXES };
+enum kr_deformation { KR_UNIAXIAL_Y, KR_UNIAXIAL_X, KR_ISOTROPIC, KR_MEAN_OVER_AXES, KR_UNIAXIAL_Z };
 enum kr_model { KR_PLANE_STRESS, KR_PLANE_STRAIN, KR_SOLID };
 enum kr_micromodulus { KR_CONSTANT, KR_CONICAL };
 
@@ -125,6 +125,10 @@ struct kr_case_set {
     double within;    /* m: nodes within this distance ... */
     const char *of;   /* ... of this boundary */
     double lower[3], upper[3]; /* m: or nodes in this box */
+    double centre[3], radius;  /* m: or in this disc or ball */
+    double through[3], normal[3]; /* m, 1: or on the side of a line or plane that `normal` shows to */
+    struct kr_deck_list points;   /* double, m: or in this polygon (2D) */
+    struct kr_deck_list join, meet, less, without; /* const char *: or made of other sets */
 };
 
 /* A crack before the run: a line in a plate; a polygon, disc or surface of triangles in a solid. */
@@ -250,6 +254,16 @@ void kr_case_normal(size_t n, const double *corner, double normal[3]);
 /** Whether the deck gives components for a vector, and as many as the model has dimensions; a fault
  *  where it gives others. */
 int kr_case_check_count(struct kr_deck *deck, const struct kr_case *c, const void *vector);
+
+/** The part of it that looks at one set of nodes. */
+void kr_case_check_set(struct kr_deck *deck, const struct kr_case *c,
+                       const struct kr_case_set *set);
+
+/** Fault a box whose upper corner is not above the lower one. */
+void kr_case_check_box(struct kr_deck *deck, const double *lower, const double *upper, int dim);
+
+/** Letters, digits, _ and -: a name becomes a dataset of HDF5 and a column of CSV. */
+int kr_case_is_name(const char *text);
 
 /** Complete outline and pores: which centres were given, and files from the deck's folder. `c` must
  *  be the struct that the deck was read into. */

@@ -39,8 +39,7 @@ static void check_mesh(struct kr_deck *deck, const struct kr_case *c) {
                       c->horizon, narrow);
 }
 
-/* Letters, digits, _ and -: a name becomes a dataset of HDF5 and a column of CSV. */
-static int is_name(const char *text) {
+int kr_case_is_name(const char *text) {
     const char *good = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
     return *text && !text[strspn(text, good)];
 }
@@ -54,38 +53,11 @@ int kr_case_check_count(struct kr_deck *deck, const struct kr_case *c, const voi
     return count == dim;
 }
 
-static void check_box(struct kr_deck *deck, const double *lower, const double *upper, int dim) {
+void kr_case_check_box(struct kr_deck *deck, const double *lower, const double *upper, int dim) {
     for (int k = 0; k < dim; k++)
         if (lower[k] >= upper[k])
             kr_deck_fault(deck, upper, "%c = %g m is not above that of `lower`, %g m", "xyz"[k],
                           upper[k], lower[k]);
-}
-
-static void check_set(struct kr_deck *deck, const struct kr_case *c,
-                      const struct kr_case_set *set) {
-    int within = kr_deck_given(deck, &set->within), of = kr_deck_given(deck, &set->of);
-    int lower = kr_deck_given(deck, set->lower), upper = kr_deck_given(deck, set->upper);
-    if (!is_name(set->name))
-        kr_deck_fault(deck, &set->name,
-                      "a set's name may have letters, digits, '_' and '-', no others");
-    if ((within || of) && (lower || upper))
-        kr_deck_fault(deck, &set->name,
-                      "both a boundary (within, of) and a box (lower, upper); a "
-                      "set is one of them");
-    else if (within != of)
-        kr_deck_fault(deck, &set->name, "'%s' goes with '%s', which is missing",
-                      within ? "within" : "of", within ? "of" : "within");
-    else if (lower != upper)
-        kr_deck_fault(deck, &set->name, "'%s' goes with '%s', which is missing",
-                      lower ? "lower" : "upper", lower ? "upper" : "lower");
-    else if (lower && kr_case_check_count(deck, c, set->lower) && kr_case_check_count(deck, c, set->upper))
-        check_box(deck, set->lower, set->upper, kr_case_dim(c));
-    else if (!lower && !within)
-        kr_deck_fault(deck, &set->name,
-                      "empty; expected 'within' and 'of', or 'lower' and 'upper'");
-    if (of && set->of && !is_name(set->of))
-        kr_deck_fault(deck, &set->of,
-                      "found '%.40s', expected the name of a boundary, such as 'top'", set->of);
 }
 
 static int is_all_free(const struct kr_deck_formula formula[3]) {
@@ -122,7 +94,7 @@ static void check_sets_and_loads(struct kr_deck *deck, const struct kr_case *c) 
     const struct kr_case_set *sets = c->sets.item;
     const struct kr_case_load *loads = c->loads.item;
     for (size_t i = 0; i < c->sets.count; i++)
-        check_set(deck, c, &sets[i]);
+        kr_case_check_set(deck, c, &sets[i]);
     for (size_t i = 0; i < c->loads.count; i++)
         check_load(deck, c, &loads[i]);
 }
@@ -162,6 +134,12 @@ static void check_times(struct kr_deck *deck, const struct kr_case *c) {
             kr_deck_fault(deck, &at[i], "%g s is after end_time, %g s", at[i], c->end_time);
 }
 
+static void check_deformation(struct kr_deck *deck, const struct kr_case *c) {
+    if (c->surface_deformation == KR_UNIAXIAL_Z && c->model <= KR_PLANE_STRAIN)
+        kr_deck_fault(deck, &c->surface_deformation,
+                      "uniaxial-z is for bodies in 3D; a plate has x and y");
+}
+
 static void check_law(struct kr_deck *deck, const struct kr_case *c) {
     char known[256] = "";
     if (!c->law || kr_law_named(c->law))
@@ -188,7 +166,8 @@ void kr_case_check(struct kr_deck *deck, const struct kr_case *c) {
     check_times(deck, c);
     for (size_t i = 0; i < c->boxes.count; i++)
         if (kr_deck_given(deck, boxes[i].lower) && kr_deck_given(deck, boxes[i].upper))
-            check_box(deck, boxes[i].lower, boxes[i].upper, 2);
+            kr_case_check_box(deck, boxes[i].lower, boxes[i].upper, 2);
+    check_deformation(deck, c);
     check_law(deck, c);
 }
 

@@ -190,7 +190,7 @@ static const struct row {
      "  sets:\n    top: {within: 0.3 mm, of: top}\n    bottom: {within: 0.3 mm, of: bottom}",
      "  sets: [top, bottom]", NULL, NULL,
      "case.yaml:13:10: nodes.sets: found a list of 2, expected names, each with within, of, lower, "
-     "upper\n"
+     "upper, centre, radius, through, normal, points, union, intersection, difference, not\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_text_as_a_section", "title: a plate", "title: {a: plate}", NULL, NULL,
      "case.yaml:1:9: title: found a section, expected a text\n"
@@ -253,7 +253,9 @@ static const struct row {
      "{lower: [0 mm, 0 mm, 0 mm], upper: [1 mm, 1 mm, 1 mm]}", NULL, NULL,
      "case.yaml:14:19: nodes.sets.top.lower: found 3 components, expected 2: the model is a plate; "
      "material.model: solid has three\n"
-     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+     "case.yaml:14:46: nodes.sets.top.upper: found 3 components, expected 2: the model is a plate; "
+     "material.model: solid has three\n"
+     "kirsch: 2 faults in case.yaml; nothing was done\n"},
     {"deck_load_of_two_kinds", "traction: [free, 6 MPa]",
      "traction: [free, 6 MPa], velocity: [free, 3 m/s]", NULL, NULL,
      "case.yaml:24:27: loads.0.traction: a load has just one of displacement, velocity, traction "
@@ -275,8 +277,20 @@ static const struct row {
      "case.yaml:14:11: nodes.sets.top: both a boundary (within, of) and a box (lower, upper); a "
      "set is one of them\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_set_of_a_polygon_of_two", "{within: 0.3 mm, of: top}",
+     "{points: [[0 mm, 0 mm], [1 mm, 1 mm]]}", NULL, NULL,
+     "case.yaml:14:21: nodes.sets.top.points: found 2 corners, expected 3 or more\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_set_of_no_direction", "{within: 0.3 mm, of: top}",
+     "{through: [0 mm, 0 mm], normal: [0, 0]}", NULL, NULL,
+     "case.yaml:14:43: nodes.sets.top.normal: all components are 0; expected a direction\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_uniaxial_z_of_a_plate", "  sets:", "  surface_deformation: uniaxial-z\n  sets:", NULL, NULL,
+     "case.yaml:13:24: nodes.surface_deformation: uniaxial-z is for bodies in 3D; a plate has x and y\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_set_of_no_kind", "{within: 0.3 mm, of: top}", "{}", NULL, NULL,
-     "case.yaml:14:5: nodes.sets.top: empty; expected 'within' and 'of', or 'lower' and 'upper'\n"
+     "case.yaml:14:5: nodes.sets.top: empty; expected 'within' and 'of', 'lower' and 'upper', 'centre' "
+     "and 'radius', 'through' and 'normal', 'points', 'union', 'intersection', 'difference' or 'not'\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_set_half_given", "{within: 0.3 mm, of: top}", "{within: 0.3 mm}", NULL, NULL,
      "case.yaml:14:11: nodes.sets.top: 'within' goes with 'of', which is missing\n"
