@@ -13,6 +13,10 @@
 #define POSITIVE .least = 0, .most = INFINITY, .exclusive = 1
 #define NOT_NEGATIVE .least = 0, .most = INFINITY
 #define VECTOR_OF(where) .type = KR_DECK_VECTOR, .offset = (where), .unit = "m", .count = 2
+/* In a plate two components, in a solid three. */
+#define PLACE_OF(where)                                                                            \
+    .type = KR_DECK_VECTOR, .offset = (where), .unit = "m", .count = 3, .fewest = 2
+#define SPACE_OF(where) .type = KR_DECK_VECTOR, .offset = (where), .unit = "m", .count = 3
 #define NUMBER_OF(where, si) .type = KR_DECK_NUMBER, .offset = (where), .unit = (si)
 #define LIST_OF(what, type_, keys_)                                                                \
     .type = (what), .item_size = sizeof(type_), .keys = (keys_), .fallback = ""
@@ -123,6 +127,35 @@ static const struct kr_deck_key pores_keys[] = {
     {NULL},
 };
 
+#define VOID_AT(field) offsetof(struct kr_case_void, field)
+static const struct kr_deck_key void_keys[] = {
+    {"centre", SPACE_OF(VOID_AT(centre)), .fallback = "",
+     .text = "Centre `[x, y, z]`; it may lie outside, and voids may overlap each other. An STL file "
+             "needs none: its origin comes to lie there."},
+    {"radius", LENGTH_OF(VOID_AT(radius)), POSITIVE, .text = "Of a sphere or cylinder."},
+    {"shape", KR_DECK_CHOICE, VOID_AT(shape), .words = KR_VOID_WORDS, .fallback = "sphere",
+     .text = "`stl`: what the closed surface in a file bounds."},
+    {"radii", SPACE_OF(VOID_AT(radii)), .fallback = "", POSITIVE,
+     .text = "Half axes of an ellipsoid, along x, y and z."},
+    {"length", LENGTH_OF(VOID_AT(length)), POSITIVE, .text = "Of a cylinder between its flat ends."},
+    {"axis", .type = KR_DECK_VECTOR, .offset = VOID_AT(axis), .unit = "1", .count = 3, .fallback = "",
+     .text = "Direction of a cylinder; not given: along z."},
+    {"file", KR_DECK_TEXT, VOID_AT(file), .fallback = "",
+     .text = "STL file, binary or ASCII; a path from the deck's folder."},
+    {"unit", LENGTH_OF(VOID_AT(unit)), POSITIVE, .text = "What 1 in the STL file stands for, `1 mm`."},
+    {NULL},
+};
+
+#define BODY_AT(field) offsetof(struct kr_case, body.field)
+static const struct kr_deck_key body_keys[] = {
+    {"file", KR_DECK_TEXT, BODY_AT(file), .fallback = "",
+     .text = "STL file of a closed surface, binary or ASCII; a path from the deck's folder."},
+    {"unit", LENGTH_OF(BODY_AT(unit)), POSITIVE, .text = "What 1 in the file stands for, `1 mm`."},
+    {"centre", SPACE_OF(BODY_AT(centre)), .fallback = "",
+     .text = "Where the origin of the file comes to lie; not given: at the origin."},
+    {NULL},
+};
+
 static const struct kr_deck_key geometry_keys[] = {
     {"width", NUMBER_OF(AT(width), "m"), POSITIVE,
      .text = "Width of the plate (x), or of the frame around its outline. Its lower left corner is "
@@ -132,6 +165,13 @@ static const struct kr_deck_key geometry_keys[] = {
      .text = "Shape of the plate where it is no rectangle."},
     {"holes", LIST_OF(KR_DECK_LIST, struct kr_case_hole, hole_keys), .offset = AT(holes),
      .text = "Holes at given places."},
+    {"depth", NUMBER_OF(AT(depth), "m"), .fallback = "", POSITIVE,
+     .text = "Makes the plate a solid from z = 0 to this depth, its holes going through."},
+    {"voids", LIST_OF(KR_DECK_LIST, struct kr_case_void, void_keys), .offset = AT(voids),
+     .text = "Voids in a solid; the boundaries `void_1`, ... of the mesh, in this order."},
+    {"body", KR_DECK_SECTION, .keys = body_keys,
+     .text = "A solid from an STL file, within width by height by depth, in place of outline and "
+             "holes."},
     {"pores", KR_DECK_SECTION, AT(pores), .keys = pores_keys,
      .text = "Holes at random places."},
     {NULL},
@@ -163,9 +203,9 @@ static const struct kr_deck_key set_keys[] = {
      .text = "Nodes within this distance of a boundary. Goes with `of`."},
     {"of", KR_DECK_TEXT, SET_AT(of), .fallback = "",
      .text = "Name of the boundary in the mesh: `left`, `right`, `top`, `bottom`, `hole_1`, ..."},
-    {"lower", VECTOR_OF(SET_AT(lower)), .fallback = "",
-     .text = "Or nodes in a box: its lower left corner. Goes with `upper`."},
-    {"upper", VECTOR_OF(SET_AT(upper)), .fallback = "", .text = "Its upper right corner."},
+    {"lower", PLACE_OF(SET_AT(lower)), .fallback = "",
+     .text = "Or nodes in a box: its corner of least coordinates. Goes with `upper`."},
+    {"upper", PLACE_OF(SET_AT(upper)), .fallback = "", .text = "Its opposite corner."},
     {NULL},
 };
 
@@ -202,8 +242,13 @@ static const struct kr_deck_key material_keys[] = {
     {"law", KR_DECK_TEXT, AT(law), .fallback = "pmb",
      .text = "Material law; `pmb`: prototype microelastic brittle, with a constant micromodulus."},
     {"model", KR_DECK_CHOICE, AT(model), .words = KR_MODEL_WORDS,
-     .text = "Thin or thick plate. Bonds fix Poisson's ratio: 1/3 in plane stress, 1/4 in plane "
-             "strain."},
+     .text = "Thin plate, thick plate, or a body in three dimensions (`solid`: all vectors of the "
+             "deck then have three components). Bonds fix Poisson's ratio: 1/3 in plane stress, 1/4 "
+             "otherwise."},
+    {"micromodulus", KR_DECK_CHOICE, AT(micromodulus), .words = KR_MICROMODULUS_WORDS,
+     .fallback = "constant",
+     .text = "Stiffness of bonds over their length: `constant` up to the horizon, or `conical`, "
+             "falling evenly to nothing there."},
     {"youngs_modulus", NUMBER_OF(AT(youngs_modulus), "Pa"), POSITIVE, .text = "Young's modulus."},
     {"density", NUMBER_OF(AT(density), "kg/m^3"), POSITIVE, .text = "Density."},
     {"fracture_energy", NUMBER_OF(AT(fracture_energy), "J/m^2"), .fallback = "0 J/m^2",
@@ -212,8 +257,8 @@ static const struct kr_deck_key material_keys[] = {
 };
 
 static const struct kr_deck_key crack_keys[] = {
-    {"from", VECTOR_OF(offsetof(struct kr_case_crack, from)), .text = "One end."},
-    {"to", VECTOR_OF(offsetof(struct kr_case_crack, to)), .text = "The other end."},
+    {"from", PLACE_OF(offsetof(struct kr_case_crack, from)), .text = "One end."},
+    {"to", PLACE_OF(offsetof(struct kr_case_crack, to)), .text = "The other end."},
     {NULL},
 };
 
@@ -228,12 +273,14 @@ static const struct kr_deck_key cracks_keys[] = {
 
 #define LOAD_AT(field) offsetof(struct kr_case_load, field)
 #define LOAD_OF(where, si)                                                                         \
-    .type = KR_DECK_FORMULAS, .offset = (where), .unit = (si), .count = 2, .fallback = ""
+    .type = KR_DECK_FORMULAS, .offset = (where), .unit = (si), .count = 3, .fallback = ""
 static const struct kr_deck_key load_keys[] = {
     {"set", KR_DECK_TEXT, LOAD_AT(set), .text = "Name of a set under `nodes.sets`."},
     {"displacement", LOAD_OF(LOAD_AT(displacement), "m"),
-     .text = "Prescribed displacement `[x, y]`; `free` leaves a component out."},
-    {"velocity", LOAD_OF(LOAD_AT(velocity), "m/s"), .text = "Prescribed velocity `[x, y]`."},
+     .text = "Prescribed displacement `[x, y]`, in a solid `[x, y, z]`; `free` leaves a component "
+             "out."},
+    {"velocity", LOAD_OF(LOAD_AT(velocity), "m/s"),
+     .text = "Prescribed velocity, with `free` likewise."},
     {"traction", LOAD_OF(LOAD_AT(traction), "Pa"),
      .text = "Force per area of the boundary that the set belongs to, spread over its nodes."},
     {"body_force", LOAD_OF(LOAD_AT(body_force), "N/m^3"), .text = "Force per volume."},
