@@ -7,6 +7,7 @@
 #   make deps       list what the system lacks and install it (Debian; sudo where not root)
 #   make corrections  write docs/corrections.md anew: all partial volumes with all surface corrections
 #   make pores-500  mesh 500 random fields of 30 pores (GRID=, SEEDS=, PORES=, SPACING= in mm)
+#   make free-grid  measure the free grid at three sizes (the table in docs/grids.md)
 #   make docs       write docs/deck.md anew from the table that reads the deck
 #   make format     clang-format the sources
 #   make install    PREFIX=/usr/local
@@ -58,7 +59,7 @@ KERNEL_baseline :=
 KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 
-.PHONY: FORCE all help demo test bench deps corrections pores-500 docs format install clean check-deps
+.PHONY: FORCE all help demo test bench deps corrections pores-500 free-grid docs format install clean check-deps
 all: check-deps $(programs) $(scripts)
 
 help:
@@ -143,6 +144,9 @@ corrections: all $(BUILD)/corrections
 
 pores-500: all $(BUILD)/fields
 	@$(BUILD)/fields $(or $(GRID),near-boundary) 1 $(or $(SEEDS),500) $(or $(PORES),30) $(or $(SPACING),0.25)
+
+free-grid: all
+	@BUILD=$(BUILD) cases/free-grid/table
 
 docs: all
 	@$(BUILD)/kirsch --deck-reference > docs/deck.md
