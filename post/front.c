@@ -207,6 +207,7 @@ void kr_front_free(struct kr_front *front) {
     kr_free(front->source_of);
     kr_free(front->arrival);
     kr_free(front->length);
+    kr_free(front->leads);
     kr_free(front->parent);
     kr_free(front);
 }

@@ -48,6 +48,7 @@ struct kr_front {
     size_t *source_of; /* (n); NONE: in a speck */
     double *arrival;   /* (n) s */
     double *length;    /* (n) m */
+    double *leads;     /* (n) m: greatest length that was reached by way of it */
     size_t *parent;    /* (n) the node before on the shortest way; NONE at a source */
 };
 

@@ -12,12 +12,31 @@
 
 #define NONE KR_FRONT_NONE
 
-/** Nodes of each leg in the order of the chains, that is by length: those that lie in the chain and
- *  still belong to it. */
-static size_t keep_own(const struct kr_chain *chain, const size_t *of, size_t leg, size_t *node) {
+/** Whether the way to where the crack went leads through a node: on by a branch's length, or to the
+ *  end of the leg. */
+static int leads_on(const struct kr_front *front, size_t i, double end) {
+    return front->leads[i] - front->length[i] >= KR_FRONT_SHORTEST * front->record->horizon ||
+           front->leads[i] >= end - front->record->horizon;
+}
+
+/** Whether a node or a neighbour in its leg leads on: not so in twigs at its sides. */
+static int is_core(const struct kr_front *front, const size_t *of, size_t i, double end) {
+    int core = leads_on(front, i, end);
+    for (size_t f = front->first[i]; f < front->first[i + 1] && !core; f++) {
+        size_t j = (size_t)front->near[f];
+        core = of[j] == of[i] && leads_on(front, j, end);
+    }
+    return core;
+}
+
+/** Nodes of a leg in the order of their lengths: those of its chain that still belong to it, all or
+ *  those that the centre line goes by. */
+static size_t keep_own(const struct kr_front *front, const struct kr_chain *chain,
+                       const size_t *of, size_t leg, int core, size_t *node) {
+    double end = front->length[chain->node[chain->count - 1]];
     size_t count = 0;
     for (size_t k = 0; k < chain->count; k++)
-        if (of[chain->node[k]] == leg)
+        if (of[chain->node[k]] == leg && (!core || is_core(front, of, chain->node[k], end)))
             node[count++] = chain->node[k];
     return count;
 }
@@ -36,9 +55,11 @@ static void trace_leg(const struct kr_front *front, const struct kr_chains *chai
     const struct kr_chain *chain = chains->item + c;
     struct kr_leg *leg = legs->item + c;
     size_t room = chain->count + (chain->parent == NONE ? 0 : chains->item[chain->parent].count);
-    size_t *node = KR_NEW(size_t, room), count = keep_own(chain, legs->of, c, node);
+    size_t *node = KR_NEW(size_t, room);
+    size_t count = keep_own(front, chain, legs->of, c, 1, node);
     kr_assert(count > 0);
     kr_path_lay(front, count, node, isnan(anchor[2 * c]) ? NULL : anchor + 2 * c, &leg->path);
+    count = keep_own(front, chain, legs->of, c, 0, node);
     if (chain->parent != NONE)
         count += take_from_parent(chains->item + chain->parent, legs->of, c, node + count);
     kr_path_follow(front, count, node, &leg->path);

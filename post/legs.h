@@ -6,7 +6,8 @@
  * Where two arms leave a fork at an angle the damage lies in one heap for about two horizons before
  * it is seen to be two. So the fork is placed where straight lines through the first three horizons
  * of the arms meet (least squares), if that lies before them and beside the leg they come from; the
- * damage beyond it goes to the nearer arm.
+ * damage beyond it goes to the nearer arm. The centre line (path.h) goes by the nodes next to the ways
+ * that lead on; twigs at the sides do not bend it.
  */
 #ifndef KR_LEGS_H
 #define KR_LEGS_H

@@ -107,6 +107,7 @@ static void tell(struct kr_front *front, struct queue *queue, const char *done, 
 static void find_lengths(struct kr_front *front) {
     struct queue queue = {0};
     char *done = KR_NEW(char, front->n);
+    size_t *order = KR_NEW(size_t, front->n), count = 0;
     begin(front, &queue);
     for (size_t s = 0; s < front->n_sources; s++)
         front->length[front->source[s].birth] = 0;
@@ -115,9 +116,17 @@ static void find_lengths(struct kr_front *front) {
         if (done[i])
             continue;
         done[i] = 1;
+        order[count++] = i;
         tell(front, &queue, done, i);
     }
+    while (count) { /* who was told last leads to nobody who is not yet counted */
+        size_t i = order[--count], parent = front->parent[i];
+        front->leads[i] = fmax(front->leads[i], front->length[i]);
+        if (parent != NONE)
+            front->leads[parent] = fmax(front->leads[parent], front->leads[i]);
+    }
     kr_free(queue.item);
+    kr_free(order);
     kr_free(done);
 }
 
@@ -125,6 +134,7 @@ void kr_front_spread(struct kr_front *front) {
     front->source_of = KR_NEW(size_t, front->n);
     front->arrival = KR_NEW(double, front->n);
     front->length = KR_NEW(double, front->n);
+    front->leads = KR_NEW(double, front->n);
     front->parent = KR_NEW(size_t, front->n);
     for (size_t i = 0; i < front->n; i++) {
         front->source_of[i] = front->parent[i] = NONE;

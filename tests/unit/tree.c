@@ -45,7 +45,8 @@ static const struct kr_branch *branch_of(const struct kr_tree *tree, struct draw
 }
 
 /** Every move stands within a spacing of where the crack was drawn at its time, and its speed is
- *  within 1 %; within a horizon of an end or fork, where the fit sees one side only, within 2 %. */
+ *  within 1 %. Within the window of an end or fork, where the fit sees one side only and damage of
+ *  several cracks, it is within 2 %, and within a horizon of it 4 %. */
 static void check_moves(const struct kr_tree *tree, struct drawn_kind kind,
                         const struct drawn_crack *crack) {
     size_t number, checked = 0;
@@ -54,8 +55,7 @@ static void check_moves(const struct kr_tree *tree, struct drawn_kind kind,
         const struct kr_path *path = &tree->legs.item[branch->leg[k]].path;
         for (size_t m = 0; m < path->count; m++) {
             const struct kr_move *move = path->move + m;
-            double x[2], on[2], away, s, speed;
-            int at_end;
+            double x[2], on[2], away, s, speed, rest;
             drawn_back(move->x, kind.angle, x);
             s = drawn_place(crack, x, &away);
             if (s <= 0 || s >= drawn_length(crack))
@@ -65,8 +65,8 @@ static void check_moves(const struct kr_tree *tree, struct drawn_kind kind,
                 continue;
             drawn_point(crack, s + (move->time - drawn_time(crack, s)) * speed, on);
             kr_check_near(hypot(x[0] - on[0], x[1] - on[1]), 0, DRAWN_SPACING);
-            at_end = fmin(s, drawn_length(crack) - s) < 4 * DRAWN_SPACING;
-            kr_check_near(move->speed, speed, (at_end ? 0.02 : 0.01) * speed);
+            rest = fmin(s, drawn_length(crack) - s) / (4 * DRAWN_SPACING); /* in horizons */
+            kr_check_near(move->speed, speed, (rest < 1 ? 0.04 : rest < 3 ? 0.02 : 0.01) * speed);
             checked++;
         }
     }
@@ -218,10 +218,10 @@ static void tree_two_branches_at_once(void **state) {
     }
 }
 
-/** A crack from the right edge runs into the flank of one that has passed. */
+/** A crack from the lower edge runs into the flank of one that has passed. */
 static void tree_merge(void **state) {
     const struct drawn_crack first = {2, {{2e-3, 10e-3}, {38e-3, 12e-3}}, 2e-6, 500, 0};
-    const struct drawn_crack second = {2, {{30e-3, -1e-3}, {22e-3, 11.11e-3}}, 46e-6, 400, 0};
+    const struct drawn_crack second = {2, {{30e-3, 0}, {22e-3, 11.11e-3}}, 48e-6, 400, 0};
     const struct wanted wanted[] = {{&first, 0, KR_START_PRECRACK, KR_END_ARREST},
                                     {&second, 0, KR_START_BOUNDARY, KR_END_MERGE}};
     (void)state;
@@ -248,8 +248,10 @@ static void tree_merge(void **state) {
 /** Two cracks from two sides meet in the middle: each runs into the other. */
 static void tree_two_cracks_meet(void **state) {
     const struct drawn_crack from_left = {2, {{2e-3, 10e-3}, {22e-3, 10.5e-3}}, 5e-6, 500, 0};
-    const struct drawn_crack from_right = {2, {{41e-3, 9.5e-3}, {22e-3, 10.5e-3}}, 1e-6, 432, 0};
+    struct drawn_crack from_right = {2, {{40e-3, 9.5e-3}, {22e-3, 10.5e-3}}, 1e-6, 432, 0};
     (void)state;
+    from_right.start = drawn_time(&from_left, drawn_length(&from_left)) -
+                       drawn_length(&from_right) / from_right.speed; /* they meet in time as well */
     for (int k = 0; k < KINDS; k++) {
         struct kr_record *r = drawn_plate(kinds[k], 0, 0, 0);
         struct kr_tree *tree;
@@ -279,9 +281,10 @@ static void tree_arrest(void **state) {
     const struct wanted wanted = {&crack, 0, KR_START_PRECRACK, KR_END_ARREST};
     (void)state;
     for (int k = 0; k < KINDS; k++) {
-        struct kr_record *r = drawn_plate(kinds[k], 0, 0, 0);
+        struct kr_record *r;
         struct kr_tree *tree;
         check_tree(kinds[k], &wanted, 1, "birth, arrest");
+        r = drawn_plate(kinds[k], 0, 0, 0);
         drawn_add(r, &notch);
         drawn_add(r, &crack);
         r->steps = 2500; /* 1 us after the last move: at its speed it would have gone 0.3 mm */
@@ -296,7 +299,7 @@ static void tree_arrest(void **state) {
 static void tree_hole(void **state) {
     const struct drawn_crack in = {2, {{2e-3, 10e-3}, {18.5e-3, 10e-3}}, 5e-6, 500, 0};
     const struct drawn_crack out = {2, {{21.3e-3, 10.75e-3}, {38e-3, 17e-3}}, 44e-6, 500, 0};
-    const struct drawn_crack other = {2, {{21.2e-3, 9.1e-3}, {35e-3, 2e-3}}, 60e-6, 400, 0};
+    const struct drawn_crack other = {2, {{21.2e-3, 9.1e-3}, {35e-3, 2e-3}}, 55e-6, 400, 0};
     (void)state;
     for (int k = 0; k < KINDS; k++) {
         struct kr_record *r = drawn_plate(kinds[k], 20e-3, 10e-3, 1.5e-3);
