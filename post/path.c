@@ -161,13 +161,20 @@ static int sooner(const void *left, const void *right) {
     return a->s > b->s ? -1 : a->s < b->s; /* the farthest of a time first */
 }
 
+static int is_shared(const struct kr_front *front, size_t i) {
+    for (size_t f = front->first[i]; f < front->first[i + 1]; f++)
+        if (front->source_of[front->near[f]] != front->source_of[i])
+            return 1;
+    return 0;
+}
+
 static void find_moves(const struct kr_front *front, size_t count, const size_t *node,
                        struct kr_path *path) {
     struct kr_move *all = KR_NEW(struct kr_move, count);
     for (size_t k = 0; k < count; k++)
         all[k] = (struct kr_move){front->arrival[node[k]],
                                   kr_path_place(front, path, node[k], NULL),
-                                  {0, 0}, NAN, NAN, NAN, NAN};
+                                  {0, 0}, NAN, NAN, NAN, NAN, is_shared(front, node[k])};
     qsort(all, count, sizeof *all, sooner);
     for (size_t k = 0; k < count; k++)
         if (k == 0 || all[k].s > all[path->count - 1].s)
@@ -218,9 +225,13 @@ static int solve(int terms, double matrix[3][3], double right[3], double *slope,
 static int fit_slope(const struct kr_move *move, size_t from, size_t to, size_t at, int terms,
                      double width, double *slope, double *error) {
     double matrix[3][3] = {{0}}, right[3] = {0}, copy[3], sum = 0, variance, rest, fitted = 0;
+    size_t used = 0;
     for (size_t k = from; k < to; k++) {
         double u = (move[k].s - move[at].s) / width, t = move[k].time - move[at].time;
         double power[3] = {1, u, u * u};
+        if (move[k].is_shared)
+            continue;
+        used++;
         for (int i = 0; i < terms; i++) {
             right[i] += power[i] * t;
             for (int j = 0; j <= i; j++)
@@ -229,11 +240,11 @@ static int fit_slope(const struct kr_move *move, size_t from, size_t to, size_t 
         sum += t * t;
     }
     memcpy(copy, right, sizeof copy);
-    if (to - from < (size_t)terms + 2 || !solve(terms, matrix, copy, slope, &variance))
+    if (used < (size_t)terms + 2 || !solve(terms, matrix, copy, slope, &variance))
         return 0;
     for (int i = 0; i < terms; i++)
         fitted += copy[i] * copy[i];
-    rest = fmax(sum - fitted, 0) / (double)(to - from - (size_t)terms);
+    rest = fmax(sum - fitted, 0) / (double)(used - (size_t)terms);
     *slope /= width;
     *error = sqrt(variance * rest) / width;
     return 1;

@@ -23,6 +23,7 @@ struct kr_move {
     double angle;        /* rad */
     double speed, error; /* m/s; NaN where the fit has too few moves */
     double front_energy; /* J/m^2; NaN: unknown */
+    int is_shared;       /* next to damage of another crack, so made by both: left out of fits */
 };
 
 struct kr_path {
