@@ -64,17 +64,39 @@ static void write_table(const struct kr_case *c, const struct kr_report *report,
     kr_free(path);
 }
 
+/** Find and write the pieces of the body. */
+static struct kr_fragments break_up(const struct kr_case *c, const struct kr_record *record,
+                                    const char *run) {
+    double *velocity = kr_fragments_velocity(run, record->n);
+    char *path = kr_case_file(c, "fragments.csv");
+    struct kr_fragments fragments;
+    if (!velocity)
+        kr_warn("%s holds no output with velocities: fragments have no momentum", run);
+    if (record->dim == 3 && c->cracks.count)
+        kr_warn("bonds that pre-cracks cut in 3D are taken for living in fragments.csv");
+    kr_fragments_find(record, c, velocity, &fragments);
+    kr_fragments_write(&fragments, record->dim, path);
+    kr_free(velocity);
+    kr_free(path);
+    return fragments;
+}
+
 static void track_run(const struct kr_case *c) {
     char *run = kr_case_file(c, "run.h5");
     struct kr_record *record = kr_record_read(run);
+    struct kr_fragments fragments;
     struct kr_tree *tree;
     struct kr_report report;
     if (!record->finished)
         kr_warn("%s is not finished: this is the crack after %lld steps", run,
                 (long long)record->steps);
     read_rims(c, record);
+    fragments = break_up(c, record, run);
     tree = kr_tree_grow(record);
-    report = (struct kr_report){record, c->window, c->boxes.count, follow_boxes(c, record), tree};
+    if (record->dim == 3 && c->boxes.count)
+        kr_stop(KR_EXIT_INPUT, "track.boxes follow tips in 2D, and the run is in 3D; leave them out");
+    report = (struct kr_report){record, c->window, c->boxes.count, follow_boxes(c, record), tree,
+                               &fragments};
     write_table(c, &report, "tips.csv", kr_report_tips);
     write_table(c, &report, "branches.csv", kr_report_branches);
     write_table(c, &report, "events.csv", kr_report_events);
@@ -85,6 +107,7 @@ static void track_run(const struct kr_case *c) {
     kr_free(run);
     free_tracks(&report);
     kr_tree_free(tree);
+    kr_fragments_clear(&fragments);
     kr_record_free(record);
 }
 

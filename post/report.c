@@ -210,6 +210,7 @@ void kr_report_summary(const struct kr_report *report, const char *path) {
     put(file, "finished", record->finished, "1");
     put(file, "rayleigh_speed", record->rayleigh_speed, "m/s");
     put(file, "broken_bonds", (double)record->broken, "1");
+    put(file, "fragments", (double)report->fragments->count, "1");
     put(file, "damaged_nodes", (double)report->tree->damaged, "1");
     put(file, "first_growth", record->first_break, "s");
     put_energies(file, record);
@@ -273,6 +274,14 @@ static void say_tree(const struct kr_report *report) {
                total.top_speed / rayleigh, 2e3 * kr_path_window(report->record));
 }
 
+/** Share of the mass that the heaviest fragment has, in percent. */
+static double heaviest(const struct kr_fragments *fragments) {
+    double mass = 0;
+    for (size_t f = 0; f < fragments->count; f++)
+        mass += fragments->item[f].mass;
+    return 100 * fragments->item[0].mass / mass;
+}
+
 void kr_report_say(const struct kr_report *report) {
     const struct kr_record *record = report->record;
     const struct kr_tree *tree = report->tree;
@@ -280,10 +289,15 @@ void kr_report_say(const struct kr_report *report) {
         kr_say("  first growth   none: no bond broke");
     else
         kr_say("  first growth   %.2f us", record->first_break * 1e6);
+    if (report->fragments->count > 1)
+        kr_say("  fragments      %zu; the heaviest has %.1f %% of the mass",
+               report->fragments->count, heaviest(report->fragments));
     for (size_t box = 0; box < report->n_tracks; box++)
         say_track(report, box);
     if (tree->countable)
         say_tree(report);
+    else if (record->dim == 3)
+        kr_say("  branches       not followed: crack trees are of bodies in 2D");
     else
         kr_say("  branches       not to be counted: %.0f %% of all nodes are damaged",
                100.0 * (double)tree->damaged / (double)record->n);

@@ -5,6 +5,7 @@
 #ifndef KR_REPORT_H
 #define KR_REPORT_H
 
+#include "fragments.h"
 #include "track.h"
 #include "tree.h"
 
@@ -13,7 +14,8 @@ struct kr_report {
     int64_t window; /* steps */
     size_t n_tracks;
     struct kr_track *track; /* (n_tracks) one a box of the deck */
-    const struct kr_tree *tree; /* NULL in 3D */
+    const struct kr_tree *tree;
+    const struct kr_fragments *fragments;
 };
 
 /** Write the files; each appears whole or not at all. Stop (exit 3) where they cannot be written.

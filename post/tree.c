@@ -220,7 +220,7 @@ struct kr_tree *kr_tree_grow(const struct kr_record *record) {
     *tree = (struct kr_tree){0};
     for (size_t i = 0; i < record->n; i++)
         tree->damaged += !isinf(record->damage_time[i]);
-    tree->countable = 2 * tree->damaged <= record->n;
+    tree->countable = record->dim == 2 && 2 * tree->damaged <= record->n;
     if (!tree->countable)
         return tree;
     tree->front = kr_front_create(record);

@@ -39,7 +39,8 @@ struct kr_event {
 };
 
 struct kr_tree {
-    int countable;     /* 0: more than half of the nodes are damaged: there are no lines */
+    int countable;     /* 0: more than half of the nodes are damaged, or the body is in 3D: there
+                          are no lines */
     size_t damaged, specks;
     struct kr_front *front;
     struct kr_legs legs;
@@ -50,7 +51,7 @@ struct kr_tree {
     struct kr_event *event;   /* (n_events) in the order of time */
 };
 
-/** Find the tree. The record must outlive it. Owned by the caller. */
+/** Find the tree; in 3D it is empty. The record must outlive it. Owned by the caller. */
 struct kr_tree *kr_tree_grow(const struct kr_record *record);
 void kr_tree_free(struct kr_tree *tree);
 
