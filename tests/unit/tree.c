@@ -389,6 +389,29 @@ static void tree_noise(void **state) {
     }
 }
 
+/** Patches of 0.6 mm ahead of the tip break 3 us before it comes: no cracks of their own. */
+static void tree_damage_ahead(void **state) {
+    const struct drawn_crack crack = {2, {{2e-3, 10e-3}, {36e-3, 12e-3}}, 1e-6, 500, 0};
+    (void)state;
+    for (int k = 0; k < KINDS; k++) {
+        struct kr_record *r = drawn_plate(kinds[k], 0, 0, 0);
+        struct kr_tree *tree;
+        drawn_add(r, &notch);
+        drawn_add(r, &crack);
+        for (double s = 3e-3; s < 30e-3; s += 4e-3) {
+            struct drawn_crack patch = {2, {{0}}, drawn_time(&crack, s) - 3e-6, 500, 0};
+            drawn_point(&crack, s, patch.at[0]);
+            drawn_point(&crack, s + 0.6e-3, patch.at[1]);
+            drawn_add(r, &patch);
+        }
+        tree = grow(r, kinds[k]);
+        assert_int_equal(tree->count, 1);
+        assert_int_equal(tree->specks, 0);
+        check_events(tree, "birth, arrest");
+        done(r, tree);
+    }
+}
+
 /** A crack born inside has two tips. */
 static void tree_born_inside(void **state) {
     const struct drawn_crack there = {2, {{20e-3, 10e-3}, {35e-3, 13e-3}}, 5e-6, 300, 0};
@@ -480,6 +503,7 @@ int main(void) {
         cmocka_unit_test(tree_merge),           cmocka_unit_test(tree_two_cracks_meet),
         cmocka_unit_test(tree_arrest),          cmocka_unit_test(tree_hole),
         cmocka_unit_test(tree_loop),            cmocka_unit_test(tree_noise),
+        cmocka_unit_test(tree_damage_ahead),
         cmocka_unit_test(tree_born_inside),     cmocka_unit_test(tree_nothing),
         cmocka_unit_test(tree_energy),
     };
