@@ -36,4 +36,4 @@ def open_axes(axes):
 
 
 def box_label(box, boxes):
-    return "box %d" % box if len(boxes) > 1 else None
+    return "branch %d" % box if len(boxes) > 1 else None

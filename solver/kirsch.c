@@ -45,7 +45,10 @@ static const struct step steps[] = {
      "title nodes material cracks initial loads no_fail solver output",
      {"plate.nodes.h5"},
      {"run.h5", "run/crack.h5", "history.csv"}},
-    {"kirsch-track", "track", {"run.h5", "run/crack.h5"}, {"tips.csv", "summary.csv"}},
+    {"kirsch-track",
+     "track",
+     {"plate.nodes.h5", "run.h5", "run/crack.h5"},
+     {"tips.csv", "branches.csv", "summary.csv"}},
     {"kirsch-plot",
      "title geometry",
      {"run.h5", "run/crack.h5", "tips.csv", "pores.txt"},
@@ -297,7 +300,8 @@ static void print_paths(const struct job *job) {
     static const char *const made[] = {
         "pictures/grid.png", "pictures/damage.png",  "pictures/energy.png",
         "pictures/speed.png", "pictures/tip.png", "pictures/history.png", "pictures/crack.mp4",
-        "tips.csv",          "history.csv",          "summary.csv",
+        "tips.csv",          "branches.csv",         "events.csv",
+        "fragments.csv",     "history.csv",          "summary.csv",
         "run.xdmf"};
     for (size_t k = 0; k < sizeof made / sizeof made[0]; k++) {
         char *path = kr_case_file(&job->c, made[k]);
