@@ -153,10 +153,11 @@ static const struct row {
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_word_near", "model: plane-stress", "model: plane-strss", NULL, NULL,
      "case.yaml:17:10: material.model: found 'plane-strss', expected one of plane-stress, "
-     "plane-strain; did you mean 'plane-stress'?\n"
+     "plane-strain, solid; did you mean 'plane-stress'?\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_word_far", "model: plane-stress", "model: thick", NULL, NULL,
-     "case.yaml:17:10: material.model: found 'thick', expected one of plane-stress, plane-strain\n"
+     "case.yaml:17:10: material.model: found 'thick', expected one of plane-stress, plane-strain, "
+     "solid\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_vector_too_short", "centre: [10 mm, 12.5 mm]", "centre: [10 mm]", NULL, NULL,
      "case.yaml:6:17: geometry.holes.0.centre: found a list of 1, expected a list of 2, each a "
@@ -220,7 +221,7 @@ static const struct row {
      "position 6\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_formula_with_a_comma_unquoted", "[free, 6 MPa]", "[free, 6*min(t, 1) MPa]", NULL, NULL,
-     "case.yaml:24:27: loads.0.traction: found a list of 3, expected a list of at most 2, each an "
+     "case.yaml:24:27: loads.0.traction: found a list of 3, expected a list of at most 3, each an "
      "expression in x, y, z, t and then a stress in MPa, or 'free'; put an expression with commas "
      "in quotes\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
@@ -232,8 +233,26 @@ static const struct row {
      "not; '==' compares\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_formula_in_no_list", "[free, 6 MPa]", "6 MPa", NULL, NULL,
-     "case.yaml:24:26: loads.0.traction: found '6 MPa', expected a list of at most 2, each an "
+     "case.yaml:24:26: loads.0.traction: found '6 MPa', expected a list of at most 3, each an "
      "expression in x, y, z, t and then a stress in MPa, or 'free'\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_solid_load_on_a_plate", "[free, 6 MPa]", "[free, 6 MPa, 0 MPa]", NULL, NULL,
+     "case.yaml:24:27: loads.0.traction: found 3 components, expected 2: the model is a plate; "
+     "material.model: solid has three\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_load_of_one_component", "[free, 6 MPa]", "[6 MPa]", NULL, NULL,
+     "case.yaml:24:27: loads.0.traction: found 1 component, expected 2: the model is a plate; "
+     "material.model: solid has three\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_solid_with_loads_of_a_plate", "model: plane-stress", "model: solid", NULL,
+     "cracks.precracks=[]",
+     "case.yaml:24:27: loads.0.traction: found 2 components, expected 3: the model is solid\n"
+     "case.yaml:25:30: loads.1.velocity: found 2 components, expected 3: the model is solid\n"
+     "kirsch: 2 faults in case.yaml; nothing was done\n"},
+    {"deck_solid_box_on_a_plate", "{within: 0.3 mm, of: top}",
+     "{lower: [0 mm, 0 mm, 0 mm], upper: [1 mm, 1 mm, 1 mm]}", NULL, NULL,
+     "case.yaml:14:19: nodes.sets.top.lower: found 3 components, expected 2: the model is a plate; "
+     "material.model: solid has three\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_load_of_two_kinds", "traction: [free, 6 MPa]",
      "traction: [free, 6 MPa], velocity: [free, 3 m/s]", NULL, NULL,
@@ -292,6 +311,41 @@ static const struct row {
     {"deck_hole_larger_than_the_plate", "radius: 2 mm", "radius: 26 mm", NULL, NULL,
      "case.yaml:6:42: geometry.holes.0.radius: the hole's diameter of 0.052 m is more than the "
      "plate's longer side\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_pores_by_two_words", "count: 3,", "count: 3, porosity: 0.1,", NULL, NULL,
+     "case.yaml:7:31: geometry.pores.porosity: pores are given by just one of count, porosity and "
+     "file\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_pores_normal_without_mean", "count: 3,", "count: 3, distribution: normal, mean: 0.3 mm,",
+     NULL, NULL,
+     "case.yaml:7:11: geometry.pores.deviation: missing; expected deviation of the radius, such as "
+     "'0.3 mm', for distribution normal\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_pores_round_with_aspect", "count: 3,", "count: 3, aspect: [1, 2],", NULL, NULL,
+     "case.yaml:7:30: geometry.pores.aspect: shape circle has no aspect\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_outline_beginning_with_a_difference", "  pores:",
+     "  outline: {parts: [{operation: difference}]}\n  pores:", NULL, NULL,
+     "case.yaml:7:33: geometry.outline.parts.0.operation: before the first part there is nothing to "
+     "take it from; begin with a union\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_outline_of_shape_and_parts", "  pores:",
+     "  outline: {radius: 1 mm, parts: [{shape: rectangle}]}\n  pores:", NULL, NULL,
+     "case.yaml:7:36: geometry.outline.parts: an outline of parts has no shape of its own; make it "
+     "the first part\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_outline_part_named_as_a_side", "  pores:",
+     "  outline: {parts: [{shape: rectangle, name: left}]}\n  pores:", NULL, NULL,
+     "case.yaml:7:46: geometry.outline.parts.0.name: 'left' is the name of another boundary; take "
+     "one of its own\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_outline_part_beyond_the_frame", "  pores:",
+     "  outline: {parts: [{shape: rectangle, size: [60 mm, 2 mm]}]}\n  pores:", NULL, NULL,
+     "case.yaml:7:47: geometry.outline.parts.0.size: the corner at (-0.005, 0.0115) m lies outside "
+     "width by height, 0.05 m x 0.025 m\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_outline_of_cad_without_file", "  pores:", "  outline: {shape: cad}\n  pores:", NULL, NULL,
+     "case.yaml:7:13: geometry.outline.file: missing; expected file: plate.step for shape cad\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_pores_without_radius", "pores: {count: 3, radius: [0.2 mm, 0.5 mm]}",
      "pores: {count: 3}", NULL, NULL,
