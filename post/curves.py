@@ -12,11 +12,12 @@ SMOOTH = 15  # moves of the tip
 def tips_by_box(case):
     """List of (box, columns of tips.csv in mm and us)."""
     tips = read_csv(case.path("tips.csv"))
-    if not len(tips["box"]):
+    number = "branch" if "branch" in tips else "box"
+    if not len(tips[number]):
         raise Nothing("there is no crack tip in %s" % case.path("tips.csv"))
     result = []
-    for box in np.unique(tips["box"]):
-        rows = tips["box"] == box
+    for box in np.unique(tips[number]):
+        rows = tips[number] == box
         result.append((int(box), {"x": 1e3 * tips["x"][rows], "y": 1e3 * tips["y"][rows],
                                   "time": 1e6 * tips["time"][rows],
                                   "speed": tips["speed_over_rayleigh"][rows]}))

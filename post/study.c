@@ -11,15 +11,15 @@
 #include "base/child.h"
 #include "base/error.h"
 #include "base/memory.h"
-#include "table.h"
+#include "csv.h"
 
 enum { NAME_MOST = 200 }; /* letters; file systems allow 255 */
 
 /* ---- from a table -------------------------------------------------------------------------- */
 
 static void read_table(struct kr_study *study) {
-    struct kr_table *table = kr_table_read(study->path);
-    size_t named = kr_table_column(table, "name");
+    struct kr_csv *table = kr_csv_read(study->path);
+    size_t named = kr_csv_column(table, "name");
     study->n_runs = table->n_rows;
     study->run = KR_NEW(struct kr_study_run, table->n_rows);
     study->key = KR_NEW(char *, table->n_columns);
@@ -31,14 +31,14 @@ static void read_table(struct kr_study *study) {
         size_t n = 0;
         run->value = KR_NEW(char *, study->n_keys);
         for (size_t k = 0; k < table->n_columns; k++) {
-            const char *cell = kr_table_cell(table, r, k);
+            const char *cell = kr_csv_cell(table, r, k);
             if (k == named)
                 run->name = *cell ? kr_text_copy(cell) : NULL;
             else
                 run->value[n++] = kr_text_copy(cell);
         }
     }
-    kr_table_free(table);
+    kr_csv_free(table);
 }
 
 /* ---- from YAML ----------------------------------------------------------------------------- */

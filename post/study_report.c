@@ -17,7 +17,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "study_run.h"
-#include "table.h"
+#include "csv.h"
 
 /* ---- results of a run ---------------------------------------------------------------------- */
 
@@ -25,28 +25,27 @@
 static const struct result {
     const char *column, *name;
 } results[] = {
-    {"first_growth [s]", "first_growth"},     {"first_branch [s]", "first_branch"},
-    {"branches", "branches"},                 {"mean_speed [m/s]", "mean_speed"},
-    {"top_speed [m/s]", "top_speed"},         {"rayleigh_speed [m/s]", "rayleigh_speed"},
-    {"fracture_work [J/m]", "fracture_work"}, {"energy_balance", "energy_balance"},
-    {"first_pore_distance [m]", "first_pore_distance"},
+    {"first_growth [s]", "first_growth"},     {"branches", "branches"},
+    {"mean_speed [m/s]", "mean_speed"},       {"top_speed [m/s]", "top_speed"},
+    {"rayleigh_speed [m/s]", "rayleigh_speed"}, {"fracture_work [J/m]", "fracture_work"},
+    {"energy_balance", "energy_balance"},
 };
 enum { RESULTS = sizeof results / sizeof results[0] };
 
-static struct kr_table *table_of(const struct kr_study_run *run, const char *name) {
+static struct kr_csv *table_of(const struct kr_study_run *run, const char *name) {
     char *path = kr_text("%s/%s", run->folder, name);
-    struct kr_table *table = access(path, R_OK) ? NULL : kr_table_read(path);
+    struct kr_csv *table = access(path, R_OK) ? NULL : kr_csv_read(path);
     kr_free(path);
     return table;
 }
 
 /* A value of summary.csv as it stands there; "" if there is none. */
-static const char *value_of(const struct kr_table *summary, const char *name) {
-    size_t names = kr_table_column(summary, "name"), values = kr_table_column(summary, "value");
-    for (size_t r = 0; r < summary->n_rows && names != KR_TABLE_NONE && values != KR_TABLE_NONE;
+static const char *value_of(const struct kr_csv *summary, const char *name) {
+    size_t names = kr_csv_column(summary, "name"), values = kr_csv_column(summary, "value");
+    for (size_t r = 0; r < summary->n_rows && names != KR_CSV_NONE && values != KR_CSV_NONE;
          r++)
-        if (!strcmp(kr_table_cell(summary, r, names), name))
-            return kr_table_cell(summary, r, values);
+        if (!strcmp(kr_csv_cell(summary, r, names), name))
+            return kr_csv_cell(summary, r, values);
     return "";
 }
 
@@ -62,6 +61,37 @@ static size_t count_pores(const struct kr_study_run *run) {
     free(line);
     kr_free(path);
     return count;
+}
+
+/* Row of the first event of a kind; events.csv is in the order of time. KR_CSV_NONE if none. */
+static size_t first_event(const struct kr_csv *events, const char *kind) {
+    size_t kinds = kr_csv_column(events, "kind");
+    for (size_t r = 0; r < events->n_rows && kinds != KR_CSV_NONE; r++)
+        if (!strcmp(kr_csv_cell(events, r, kinds), kind))
+            return r;
+    return KR_CSV_NONE;
+}
+
+static double number_at(const struct kr_csv *events, size_t row, const char *name) {
+    size_t column = kr_csv_column(events, name);
+    return row == KR_CSV_NONE || column == KR_CSV_NONE
+               ? NAN
+               : strtod(kr_csv_cell(events, row, column), NULL);
+}
+
+static void put_number(FILE *file, double value) {
+    if (isfinite(value))
+        fprintf(file, ",%.9g", value);
+    else
+        fputc(',', file);
+}
+
+/* Time of the first fork, and how far from its birth the crack first entered a hole. */
+static void put_events(FILE *file, const struct kr_csv *events) {
+    size_t birth = first_event(events, "birth"), hole = first_event(events, "enter hole");
+    put_number(file, number_at(events, first_event(events, "branch"), "time"));
+    put_number(file, hypot(number_at(events, hole, "x") - number_at(events, birth, "x"),
+                           number_at(events, hole, "y") - number_at(events, birth, "y")));
 }
 
 /* ---- the table ----------------------------------------------------------------------------- */
@@ -82,7 +112,7 @@ static void put(FILE *file, const char *text) {
 }
 
 static void put_results(FILE *file, const struct kr_study_run *run) {
-    struct kr_table *summary = run->state == KR_STUDY_DONE ? table_of(run, "summary.csv") : NULL;
+    struct kr_csv *summary = run->state == KR_STUDY_DONE ? table_of(run, "summary.csv") : NULL;
     if (summary)
         fprintf(file, ",%zu", count_pores(run));
     else
@@ -92,11 +122,17 @@ static void put_results(FILE *file, const struct kr_study_run *run) {
         if (summary)
             put(file, value_of(summary, results[k].name));
     }
+    struct kr_csv *events = summary ? table_of(run, "events.csv") : NULL;
+    if (events)
+        put_events(file, events);
+    else
+        fputs(",,", file);
+    kr_csv_free(events);
     double wall = kr_study_wall_time(run);
     fputc(',', file);
     if (wall > 0)
         fprintf(file, "%.1f", wall);
-    kr_table_free(summary);
+    kr_csv_free(summary);
 }
 
 static void put_header(FILE *file, const struct kr_study *study) {
@@ -108,7 +144,7 @@ static void put_header(FILE *file, const struct kr_study *study) {
     fputs(",state,pores", file);
     for (size_t k = 0; k < RESULTS; k++)
         fprintf(file, ",%s", results[k].column);
-    fputs(",wall_time [s],fault\n", file);
+    fputs(",first_branch [s],first_pore_distance [m],wall_time [s],fault\n", file);
 }
 
 static void put_run(FILE *file, const struct kr_study *study, const struct kr_study_run *run) {

@@ -2,7 +2,7 @@
  *
  * Tables: one pass over the text. A line is cut in place into fields, then copied.
  */
-#include "table.h"
+#include "csv.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -64,7 +64,7 @@ static int is_comment(const char *line) {
 }
 
 /* Put the fields of a line behind the rows; they then belong to the table. */
-static void add_row(struct kr_table *table, const struct fields *fields, size_t line) {
+static void add_row(struct kr_csv *table, const struct fields *fields, size_t line) {
     size_t n = table->n_columns;
     table->cell = kr_realloc(table->cell, (table->n_rows + 1) * n, sizeof(char *));
     table->line = kr_realloc(table->line, table->n_rows + 1, sizeof(size_t));
@@ -72,7 +72,7 @@ static void add_row(struct kr_table *table, const struct fields *fields, size_t 
     table->line[table->n_rows++] = line;
 }
 
-static void take_line(struct kr_table *table, char *text, const char *path, size_t line) {
+static void take_line(struct kr_csv *table, char *text, const char *path, size_t line) {
     struct fields fields = {0};
     if (!cut(text, &fields))
         kr_stop(KR_EXIT_INPUT, "%s:%zu: a quote does not end in its line", path, line);
@@ -90,8 +90,8 @@ static void take_line(struct kr_table *table, char *text, const char *path, size
     kr_free(fields.text);
 }
 
-struct kr_table *kr_table_read(const char *path) {
-    struct kr_table *table = KR_NEW(struct kr_table, 1);
+struct kr_csv *kr_csv_read(const char *path) {
+    struct kr_csv *table = KR_NEW(struct kr_csv, 1);
     FILE *file = fopen(path, "r");
     char *text = NULL;
     size_t room = 0;
@@ -109,7 +109,7 @@ struct kr_table *kr_table_read(const char *path) {
     return table;
 }
 
-void kr_table_free(struct kr_table *table) {
+void kr_csv_free(struct kr_csv *table) {
     if (!table)
         return;
     for (size_t k = 0; k < table->n_columns; k++)
@@ -122,15 +122,15 @@ void kr_table_free(struct kr_table *table) {
     kr_free(table);
 }
 
-size_t kr_table_column(const struct kr_table *table, const char *name) {
+size_t kr_csv_column(const struct kr_csv *table, const char *name) {
     size_t length = strlen(name);
     for (size_t k = 0; k < table->n_columns; k++)
         if (!strncmp(table->name[k], name, length) &&
             (!table->name[k][length] || !strncmp(table->name[k] + length, " [", 2)))
             return k;
-    return KR_TABLE_NONE;
+    return KR_CSV_NONE;
 }
 
-const char *kr_table_cell(const struct kr_table *table, size_t row, size_t column) {
+const char *kr_csv_cell(const struct kr_csv *table, size_t row, size_t column) {
     return table->cell[row * table->n_columns + column];
 }
