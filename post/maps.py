@@ -8,6 +8,7 @@ from raster import raster
 from results import Fault
 from style import DAMAGE, DPI, ENERGY, WIDTH, plt
 
+
 def rows_of(case, columns):
     """Rows of a picture of the whole plate that is `columns` pixels wide."""
     lower, upper = case.box()
