@@ -4,7 +4,7 @@ import os
 
 import numpy as np
 
-from maps import paint, panels, save, show
+from maps import outline_material, paint, panels, save, show
 from results import Case, Fault, warn
 from style import DAMAGE, plt
 
@@ -21,12 +21,14 @@ def draw(*folders):
                for case, (names, _) in zip((a, b), steps)]
     for some, case, pixels, (_, times) in zip(axes, (a, b), painted, steps):
         image = show(some, case, pixels, DAMAGE, 1)
+        outline_material(some, case, pixels)
         some.set_title("%s, %.4g µs" % (os.path.basename(case.folder), times[-1]), pad=3)
     figure.colorbar(image, cax=bar, label="damage")
     difference = painted[0] - painted[1]
     most = float(np.ma.abs(difference).max())
     limit = most or 1
     image = show(axes[2], a, difference, plt.get_cmap("PuOr"), limit)
+    outline_material(axes[2], a, difference)
     image.set_clim(-limit, limit)
     axes[2].set_title("difference, at most %.3g" % most, pad=3)
     place = axes[2].get_position()

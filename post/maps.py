@@ -53,6 +53,15 @@ def outline_holes(axes, case, width=0.6, colour="0.35"):
         axes.add_patch(Circle((x, y), radius, fill=False, linewidth=width, edgecolor=colour))
 
 
+def outline_material(axes, case, pixels):
+    """A line around all that is not material, for cases of which only the folder is known."""
+    outside = np.ma.getmaskarray(pixels)
+    if outside.any():
+        lower, upper = case.box()
+        axes.contour(outside.astype(float), [0.5], colors="0.35", linewidths=0.5,
+                     extent=(lower[0], upper[0], lower[1], upper[1]))
+
+
 # ---- four times --------------------------------------------------------------------------------
 
 def chosen_steps(case, count=4):

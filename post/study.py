@@ -5,7 +5,7 @@ import os
 
 import numpy as np
 
-from maps import paint, rows_of, show
+from maps import outline_material, paint, show
 from results import Case, Fault, Nothing, warn
 from style import DAMAGE, DPI, WIDTH, open_axes, plt
 
@@ -49,7 +49,9 @@ def contact(folder, rows):
     for axes, name in zip(grid.flat, done):
         case = Case(os.path.join(folder, name), [])
         steps, times = case.steps()
-        image = show(axes, case, paint(case, case.field(steps[-1], "Damage"), pixels), DAMAGE, 1)
+        map_of = paint(case, case.field(steps[-1], "Damage"), pixels)
+        image = show(axes, case, map_of, DAMAGE, 1)
+        outline_material(axes, case, map_of)
         axes.set(xticks=[], yticks=[], aspect="equal")
         axes.set_title("%s, %.4g µs" % (name, times[-1]), fontsize=7 if columns == 2 else 5, pad=2)
     figure.colorbar(image, ax=grid, label="damage", fraction=0.03, aspect=30)
