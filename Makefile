@@ -2,6 +2,7 @@
 #
 #   make            build everything into build/
 #   make demo       a crack runs through a porous plate; ends with pictures (FULL=1: the paper's size)
+#   make study      run the example study of random pores; goes on where it was interrupted
 #   make test       all tests (ONLY=word: those whose name contains the word)
 #   make bench      measure the speed; writes build/bench.csv
 #   make deps       list what the system lacks and install it (Debian; sudo where not root)
@@ -59,7 +60,7 @@ KERNEL_baseline :=
 KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 
-.PHONY: FORCE all help demo test bench deps corrections pores-500 free-grid docs format install clean check-deps
+.PHONY: FORCE all help demo study test bench deps corrections pores-500 free-grid docs format install clean check-deps
 all: check-deps $(programs) $(scripts)
 
 help:
@@ -130,6 +131,10 @@ $(BUILD)/corrections: $(BUILD)/cases/corrections/corrections.o $(BUILD)/libkirsc
 demo: deps
 	@$(MAKE) --no-print-directory all
 	@$(BUILD)/kirsch cases/demo/case.yaml $(if $(FULL),--variant full)
+
+study: deps
+	@$(MAKE) --no-print-directory all
+	@$(BUILD)/kirsch-study cases/study/study.yaml
 
 test: deps
 	@$(MAKE) --no-print-directory all $(tests)

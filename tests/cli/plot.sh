@@ -60,12 +60,18 @@ boxes() {
 }
 draws_all() {
     plot >"$work/paths" || return 1
-    for picture in grid damage energy speed tip history; do
+    for picture in grid damage energy speed tip tree history; do
         is_png $picture 10000 || { echo "$picture.png is not as expected"; return 1; }
     done
-    [ "$(wc -l <"$work/paths")" -eq 7 ] && [ -s "$run/pictures/crack.mp4" ]
+    [ "$(wc -l <"$work/paths")" -eq 8 ] && [ -s "$run/pictures/crack.mp4" ]
 }
 draws_one() { [ "$(plot tip)" = "$run/pictures/tip.png" ]; }
+draws_a_field() { plot --field Damage && is_png damage 10000 && [ "$(/usr/bin/python3 -c "
+import sys, numpy as np
+from PIL import Image
+picture = Image.open(sys.argv[1])
+print(round(picture.info['dpi'][0]), picture.size[0], np.asarray(picture.convert('L')).std() > 10)" "$run/pictures/damage.png")" = "300 2100 True" ]; }
+draws_the_tree() { plot tree && is_png tree 10000; }
 without_ffmpeg() { # a PATH on which there is none
     stops 0 'warning: no film: cannot start ffmpeg' env PATH="$work" "$build/kirsch-plot" \
         --output "$run" "$run/case.yaml" tip crack
@@ -125,6 +131,9 @@ check track_uses_boxes boxes
 track >"$work/said" 2>&1
 check draws_all_pictures draws_all
 check draws_one_picture draws_one
+check draws_a_field draws_a_field
+check draws_the_tree draws_the_tree
+check refuses_an_unknown_field stops 2 'unknown field `Damge`; the run has Damage' plot --field Damge
 check refuses_an_unknown_picture stops 2 'unknown picture `dammage`' plot dammage
 check goes_on_without_ffmpeg without_ffmpeg
 check goes_on_without_tips without_tips
