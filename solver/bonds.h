@@ -50,9 +50,9 @@ struct kr_bonds {
 
     /* per node; padded arrays of kr_bonds_padded */
     double *x[3];    /* m */
-    double *volume;  /* m^2 */
+    double *volume;  /* m^2; 3D: m^3 */
     double *factor;  /* lambda */
-    double *family_volume, *lost_volume; /* m^2: of the whole family, and behind broken bonds */
+    double *family_volume, *lost_volume; /* as `volume`: of the whole family, and behind broken bonds */
     unsigned char *no_fail;              /* bonds of this node never break */
 
     /* per slice */
@@ -100,11 +100,6 @@ void kr_bonds_free(struct kr_bonds *bonds);
  *  load past both ends. Free with kr_bonds_padded_free. */
 double *kr_bonds_padded(size_t n);
 void kr_bonds_padded_free(double *array);
-
-/** Cut the bonds that cross the segment from a to b [m] (2D); touching counts.
- *  count: whether they count in the damage (plates paper eq. 10) or leave the family at once.
- *  Returns the number of pairs cut. */
-size_t kr_bonds_cut(struct kr_bonds *bonds, const double a[2], const double b[2], int count);
 
 /** Damage of a node, 0 to 1: 1 - sum of mu phi V over sum of phi V; theory.md (9), paper eq. 10. */
 double kr_bonds_damage(const struct kr_bonds *bonds, size_t i);

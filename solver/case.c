@@ -13,6 +13,10 @@
 #define POSITIVE .least = 0, .most = INFINITY, .exclusive = 1
 #define NOT_NEGATIVE .least = 0, .most = INFINITY
 #define VECTOR_OF(where) .type = KR_DECK_VECTOR, .offset = (where), .unit = "m", .count = 2
+/* In a plate two components, in a solid three. */
+#define PLACE_OF(where)                                                                            \
+    .type = KR_DECK_VECTOR, .offset = (where), .unit = "m", .count = 3, .fewest = 2
+#define SPACE_OF(where) .type = KR_DECK_VECTOR, .offset = (where), .unit = "m", .count = 3
 #define NUMBER_OF(where, si) .type = KR_DECK_NUMBER, .offset = (where), .unit = (si)
 #define LIST_OF(what, type_, keys_)                                                                \
     .type = (what), .item_size = sizeof(type_), .keys = (keys_), .fallback = ""
@@ -43,17 +47,44 @@ static const struct kr_deck_key hole_keys[] = {
 };
 
 #define OUTLINE_AT(field) offsetof(struct kr_case_outline, field)
+#define OUTLINE_SHAPE_KEYS                                                                         \
+    {"shape", KR_DECK_CHOICE, OUTLINE_AT(shape), .words = KR_OUTLINE_WORDS,                        \
+     .fallback = "rectangle",                                                                      \
+     .text = "`rectangle`: all of width by height, or of a size; `cad`: the plane faces of a "     \
+             "file, with their holes."},                                                           \
+    {"centre", VECTOR_OF(OUTLINE_AT(centre)), .fallback = "",                                      \
+     .text = "Centre of a disc, ring or rectangle; not given: the middle of width by height. Of "  \
+             "a polygon or a cad file: where its origin comes to lie; not given: (0, 0)."},        \
+    {"radius", LENGTH_OF(OUTLINE_AT(radius)), POSITIVE,                                            \
+     .text = "Outer radius of a disc or ring."},                                                   \
+    {"inner_radius", LENGTH_OF(OUTLINE_AT(inner_radius)), POSITIVE, .text = "Of a ring."},         \
+    {"points", KR_DECK_NUMBERS, OUTLINE_AT(points), .unit = "m", .count = 2, .fallback = "",       \
+     .text = "Corners of a polygon in turn."},                                                     \
+    {"corner_radius", LENGTH_OF(OUTLINE_AT(corner_radius)), NOT_NEGATIVE,                          \
+     .text = "Radius that rounds the corners of a rectangle or polygon; not given: sharp."},       \
+    {"size", VECTOR_OF(OUTLINE_AT(size)), .fallback = "", POSITIVE,                                \
+     .text = "Sides of a rectangle, along x and y before it is turned; not given: width and "      \
+             "height."},                                                                           \
+    {"angle", NUMBER_OF(OUTLINE_AT(angle), "rad"), .fallback = "",                                 \
+     .text = "Turns the shape about its centre, counter-clockwise."},                              \
+    {"file", KR_DECK_TEXT, OUTLINE_AT(file), .fallback = "",                                       \
+     .text = "STEP, IGES or BREP file of a `cad` outline; a path from the deck's folder."}
+
+static const struct kr_deck_key part_keys[] = {
+    OUTLINE_SHAPE_KEYS,
+    {"operation", KR_DECK_CHOICE, OUTLINE_AT(operation), .words = KR_OPERATION_WORDS,
+     .fallback = "union", .text = "What the part does to the parts before it."},
+    {"name", KR_DECK_TEXT, OUTLINE_AT(name), .fallback = "",
+     .text = "Name of its edges as a boundary of the mesh; not given: `outline`."},
+    {NULL},
+};
+
 static const struct kr_deck_key outline_keys[] = {
-    {"shape", KR_DECK_CHOICE, OUTLINE_AT(shape), .words = KR_OUTLINE_WORDS,
-     .fallback = "rectangle", .text = "`rectangle`: all of width by height."},
-    {"centre", VECTOR_OF(OUTLINE_AT(centre)), .fallback = "",
-     .text = "Centre of a disc or ring; not given: the middle of width by height."},
-    {"radius", LENGTH_OF(OUTLINE_AT(radius)), POSITIVE, .text = "Outer radius of a disc or ring."},
-    {"inner_radius", LENGTH_OF(OUTLINE_AT(inner_radius)), POSITIVE, .text = "Of a ring."},
-    {"points", KR_DECK_NUMBERS, OUTLINE_AT(points), .unit = "m", .count = 2, .fallback = "",
-     .text = "Corners of a polygon in turn, within width by height."},
-    {"corner_radius", LENGTH_OF(OUTLINE_AT(corner_radius)), NOT_NEGATIVE,
-     .text = "Radius that rounds the corners of a polygon; not given: sharp."},
+    OUTLINE_SHAPE_KEYS,
+    {"parts", LIST_OF(KR_DECK_LIST, struct kr_case_outline, part_keys), .offset = OUTLINE_AT(parts),
+     .text = "Parts that make the outline in turn, each joined to those before it or taken away "
+             "from them; in place of `shape`. Within width by height; straight edges on its sides "
+             "are the boundaries `left`, `right`, `bottom` and `top`."},
     {NULL},
 };
 
@@ -61,17 +92,67 @@ static const struct kr_deck_key outline_keys[] = {
 static const struct kr_deck_key pores_keys[] = {
     {"count", KR_DECK_INTEGER, PORES_AT(count), .fallback = "0", .least = 0, .most = 1e6,
      .text = "How many pores kirsch-pores throws at random; 0: none."},
+    {"porosity", NUMBER_OF(PORES_AT(porosity), "1"), .fallback = "0", .least = 0, .most = 0.9,
+     .text = "In place of a count: area of the pores over that of the outline. Met to a "
+             "nanometre of the last radius where the range of radii allows it; the largest pores "
+             "are placed first."},
+    {"file", KR_DECK_TEXT, PORES_AT(file), .fallback = "",
+     .text = "In place of random pores: a file of them, a path from the deck's folder "
+             "([formats.md](formats.md#porestxt))."},
+    {"shape", KR_DECK_CHOICE, PORES_AT(shape), .words = KR_PORE_WORDS, .fallback = "circle",
+     .text = "`ellipse`: at random angles, the radius its long half axis; distances are kept by "
+             "the circle around it."},
+    {"aspect", KR_DECK_VECTOR, PORES_AT(aspect), .unit = "1", .count = 2, .fallback = "",
+     .least = 1, .most = 100,
+     .text = "Least and largest ratio of an ellipse's half axes, drawn evenly between the two."},
     {"radius", VECTOR_OF(PORES_AT(radius)), .fallback = "", POSITIVE,
-     .text =
-         "Least and largest radius; drawn evenly between the two. Needed where there are pores."},
+     .text = "Least and largest radius. Needed where there are random pores."},
+    {"distribution", KR_DECK_CHOICE, PORES_AT(distribution), .words = KR_DISTRIBUTION_WORDS,
+     .fallback = "uniform",
+     .text = "Of the radius between the two: `uniform`; `normal` and `lognormal`, cut off there; "
+             "`by-area`, evenly over the areas of the pores."},
+    {"mean", NUMBER_OF(PORES_AT(mean), "m"), .fallback = "", POSITIVE,
+     .text = "Mean of a normal or lognormal radius before it is cut off."},
+    {"deviation", NUMBER_OF(PORES_AT(deviation), "m"), .fallback = "", POSITIVE,
+     .text = "Its standard deviation."},
     {"edge_diameters", NUMBER_OF(PORES_AT(edge_diameters), "1"), .fallback = "1", NOT_NEGATIVE,
-     .text = "Least distance of a centre from the edges of the plate, in diameters of the pore."},
+     .text = "Least distance of a centre from the edges of the outline, in diameters of the "
+             "pore."},
     {"gap", NUMBER_OF(PORES_AT(gap), "m"), .fallback = "0.3 mm", NOT_NEGATIVE,
      .text = "Least distance between the rims of two holes."},
     {"seed", KR_DECK_INTEGER, PORES_AT(seed), .fallback = "1", .least = 0, .most = 9e15,
      .text = "Equal seeds give equal pores on every machine."},
     {"attempts", KR_DECK_INTEGER, PORES_AT(attempts), .fallback = "100000", .least = 1,
      .most = 1e12, .text = "Throws before kirsch-pores gives up, all pores together."},
+    {NULL},
+};
+
+#define VOID_AT(field) offsetof(struct kr_case_void, field)
+static const struct kr_deck_key void_keys[] = {
+    {"centre", SPACE_OF(VOID_AT(centre)), .fallback = "",
+     .text = "Centre `[x, y, z]`; it may lie outside, and voids may overlap each other. An STL file "
+             "needs none: its origin comes to lie there."},
+    {"radius", LENGTH_OF(VOID_AT(radius)), POSITIVE, .text = "Of a sphere or cylinder."},
+    {"shape", KR_DECK_CHOICE, VOID_AT(shape), .words = KR_VOID_WORDS, .fallback = "sphere",
+     .text = "`stl`: what the closed surface in a file bounds."},
+    {"radii", SPACE_OF(VOID_AT(radii)), .fallback = "", POSITIVE,
+     .text = "Half axes of an ellipsoid, along x, y and z."},
+    {"length", LENGTH_OF(VOID_AT(length)), POSITIVE, .text = "Of a cylinder between its flat ends."},
+    {"axis", .type = KR_DECK_VECTOR, .offset = VOID_AT(axis), .unit = "1", .count = 3, .fallback = "",
+     .text = "Direction of a cylinder; not given: along z."},
+    {"file", KR_DECK_TEXT, VOID_AT(file), .fallback = "",
+     .text = "STL file, binary or ASCII; a path from the deck's folder."},
+    {"unit", LENGTH_OF(VOID_AT(unit)), POSITIVE, .text = "What 1 in the STL file stands for, `1 mm`."},
+    {NULL},
+};
+
+#define BODY_AT(field) offsetof(struct kr_case, body.field)
+static const struct kr_deck_key body_keys[] = {
+    {"file", KR_DECK_TEXT, BODY_AT(file), .fallback = "",
+     .text = "STL file of a closed surface, binary or ASCII; a path from the deck's folder."},
+    {"unit", LENGTH_OF(BODY_AT(unit)), POSITIVE, .text = "What 1 in the file stands for, `1 mm`."},
+    {"centre", SPACE_OF(BODY_AT(centre)), .fallback = "",
+     .text = "Where the origin of the file comes to lie; not given: at the origin."},
     {NULL},
 };
 
@@ -84,8 +165,15 @@ static const struct kr_deck_key geometry_keys[] = {
      .text = "Shape of the plate where it is no rectangle."},
     {"holes", LIST_OF(KR_DECK_LIST, struct kr_case_hole, hole_keys), .offset = AT(holes),
      .text = "Holes at given places."},
+    {"depth", NUMBER_OF(AT(depth), "m"), .fallback = "", POSITIVE,
+     .text = "Makes the plate a solid from z = 0 to this depth, its holes going through."},
+    {"voids", LIST_OF(KR_DECK_LIST, struct kr_case_void, void_keys), .offset = AT(voids),
+     .text = "Voids in a solid; the boundaries `void_1`, ... of the mesh, in this order."},
+    {"body", KR_DECK_SECTION, .keys = body_keys,
+     .text = "A solid from an STL file, within width by height by depth, in place of outline and "
+             "holes."},
     {"pores", KR_DECK_SECTION, AT(pores), .keys = pores_keys,
-     .text = "Round holes at random places."},
+     .text = "Holes at random places."},
     {NULL},
 };
 
@@ -115,9 +203,26 @@ static const struct kr_deck_key set_keys[] = {
      .text = "Nodes within this distance of a boundary. Goes with `of`."},
     {"of", KR_DECK_TEXT, SET_AT(of), .fallback = "",
      .text = "Name of the boundary in the mesh: `left`, `right`, `top`, `bottom`, `hole_1`, ..."},
-    {"lower", VECTOR_OF(SET_AT(lower)), .fallback = "",
-     .text = "Or nodes in a box: its lower left corner. Goes with `upper`."},
-    {"upper", VECTOR_OF(SET_AT(upper)), .fallback = "", .text = "Its upper right corner."},
+    {"lower", PLACE_OF(SET_AT(lower)), .fallback = "",
+     .text = "Or nodes in a box: its corner of least coordinates. Goes with `upper`."},
+    {"upper", PLACE_OF(SET_AT(upper)), .fallback = "", .text = "Its opposite corner."},
+    {"centre", PLACE_OF(SET_AT(centre)), .fallback = "",
+     .text = "Or nodes in a disc (ball in 3D): its centre. Goes with `radius`."},
+    {"radius", NUMBER_OF(SET_AT(radius), "m"), .fallback = "", POSITIVE, .text = "Its radius."},
+    {"through", PLACE_OF(SET_AT(through)), .fallback = "",
+     .text = "Or nodes on one side of a line (plane in 3D): a point on it. Goes with `normal`."},
+    {"normal", KR_DECK_VECTOR, SET_AT(normal), "1", .fallback = "", .count = 3, .fewest = 2,
+     .text = "Direction, of any length, to the side that counts."},
+    {"points", KR_DECK_NUMBERS, SET_AT(points), .unit = "m", .count = 2, .fallback = "",
+     .text = "Or nodes in a polygon (2D): its corners in turn."},
+    {"union", KR_DECK_TEXTS, SET_AT(join), .fallback = "",
+     .text = "Or all nodes of these sets, which stand above this one or in the mesh."},
+    {"intersection", KR_DECK_TEXTS, SET_AT(meet), .fallback = "",
+     .text = "Or the nodes that are in all of these sets."},
+    {"difference", KR_DECK_TEXTS, SET_AT(less), .fallback = "",
+     .text = "Or the nodes of the first set that are in none of the others."},
+    {"not", KR_DECK_TEXTS, SET_AT(without), .fallback = "",
+     .text = "Or the nodes that are in none of these sets."},
     {NULL},
 };
 
@@ -126,8 +231,8 @@ static const struct kr_deck_key nodes_keys[] = {
      .text = "Reach of the bonds; 3 to 6 spacings, at least 2."},
     {"partial_volume", KR_DECK_CHOICE, AT(partial_volume), .words = KR_PARTIAL_VOLUME_WORDS,
      .fallback = "exact-centroid",
-     .text = "Share of a cell that counts where the horizon cuts it: `exact`, the area of the cell "
-             "inside the circle, the mean of both ends of a bond; `exact-centroid`: the same, the bond "
+     .text = "Share of a cell that counts where the horizon cuts it: `exact`, the area (volume) of the "
+             "cell inside the circle (sphere), the mean of both ends of a bond; `exact-centroid`: the same, the bond "
              "reaching to the centroid of that part; `hhb`: linear over the width of the cell, the "
              "mean of both ends, and the default of nodes that came without cells; `none`: all or "
              "nothing; "
@@ -141,12 +246,13 @@ static const struct kr_deck_key nodes_keys[] = {
     {"surface_deformation", KR_DECK_CHOICE, AT(surface_deformation),
      .words = KR_DEFORMATION_WORDS, .fallback = "mean-over-axes",
      .text = "The homogeneous deformation of the energy correction. `mean-over-axes`: the mean of "
-             "both uniaxial strains, smooth and safe; `uniaxial-y`, `uniaxial-x`: the paper's, exact "
-             "for a load in that direction, but rough at its edges and impossible between close "
-             "holes; `isotropic`."},
+             "the uniaxial strains along all axes, smooth and safe; `uniaxial-y`, `uniaxial-x`, in 3D "
+             "also `uniaxial-z`: the paper's, exact for a load in that direction, but rough at its "
+             "edges and impossible between close holes; `isotropic`."},
     {"sets", LIST_OF(KR_DECK_MAP, struct kr_case_set, set_keys), .offset = AT(sets),
      .text = "Named sets of nodes, for loads and no-fail zones: `top: {within: 0.3 mm, of: top}` "
-             "or `{lower: [0 mm, 0 mm], upper: [1 mm, 2 mm]}`."},
+             "or `{lower: [0 mm, 0 mm], upper: [1 mm, 2 mm]}`. A set is one of boundary, box, disc, "
+             "half space, polygon and a combination of other sets."},
     {NULL},
 };
 
@@ -154,8 +260,13 @@ static const struct kr_deck_key material_keys[] = {
     {"law", KR_DECK_TEXT, AT(law), .fallback = "pmb",
      .text = "Material law; `pmb`: prototype microelastic brittle, with a constant micromodulus."},
     {"model", KR_DECK_CHOICE, AT(model), .words = KR_MODEL_WORDS,
-     .text = "Thin or thick plate. Bonds fix Poisson's ratio: 1/3 in plane stress, 1/4 in plane "
-             "strain."},
+     .text = "Thin plate, thick plate, or a body in three dimensions (`solid`: all vectors of the "
+             "deck then have three components). Bonds fix Poisson's ratio: 1/3 in plane stress, 1/4 "
+             "otherwise."},
+    {"micromodulus", KR_DECK_CHOICE, AT(micromodulus), .words = KR_MICROMODULUS_WORDS,
+     .fallback = "constant",
+     .text = "Stiffness of bonds over their length: `constant` up to the horizon, or `conical`, "
+             "falling evenly to nothing there."},
     {"youngs_modulus", NUMBER_OF(AT(youngs_modulus), "Pa"), POSITIVE, .text = "Young's modulus."},
     {"density", NUMBER_OF(AT(density), "kg/m^3"), POSITIVE, .text = "Density."},
     {"fracture_energy", NUMBER_OF(AT(fracture_energy), "J/m^2"), .fallback = "0 J/m^2",
@@ -163,16 +274,37 @@ static const struct kr_deck_key material_keys[] = {
     {NULL},
 };
 
+#define CRACK_AT(field) offsetof(struct kr_case_crack, field)
+#define VECTOR_3(where, si)                                                                        \
+    .type = KR_DECK_VECTOR, .offset = (where), .unit = (si), .count = 3, .fallback = ""
+static const struct kr_deck_key disc_keys[] = {
+    {"centre", VECTOR_3(CRACK_AT(centre), "m"), .text = "Its centre."},
+    {"normal", VECTOR_3(CRACK_AT(normal), "1"), .text = "Across it, of any length: `[0, 0, 1]`."},
+    {"radius", NUMBER_OF(CRACK_AT(radius), "m"), .fallback = "", POSITIVE, .text = "Its radius."},
+    {NULL},
+};
+
 static const struct kr_deck_key crack_keys[] = {
-    {"from", VECTOR_OF(offsetof(struct kr_case_crack, from)), .text = "One end."},
-    {"to", VECTOR_OF(offsetof(struct kr_case_crack, to)), .text = "The other end."},
+    {"from", VECTOR_OF(CRACK_AT(from)), .fallback = "",
+     .text = "In a plate: one end of a straight crack. Goes with `to`."},
+    {"to", VECTOR_OF(CRACK_AT(to)), .fallback = "", .text = "The other end."},
+    {"points", KR_DECK_NUMBERS, CRACK_AT(points), .unit = "m", .count = 2, .fallback = "",
+     .text = "In a plate: the corners of a crack with bends, from end to end."},
+    {"polygon", KR_DECK_NUMBERS, CRACK_AT(polygon), .unit = "m", .count = 3, .fallback = "",
+     .text = "In a solid: the corners of a plane polygon in turn."},
+    {"disc", KR_DECK_SECTION, .keys = disc_keys, .text = "In a solid: a round crack (penny)."},
+    {"file", KR_DECK_TEXT, CRACK_AT(file), .fallback = "",
+     .text = "In a solid: a surface of triangles, open or closed; an STL file, binary or ASCII; a path "
+             "from the deck's folder."},
+    {"unit", NUMBER_OF(CRACK_AT(unit), "m"), .fallback = "", POSITIVE,
+     .text = "What 1 in the STL file stands for, `1 mm`. Goes with `file`."},
     {NULL},
 };
 
 static const struct kr_deck_key cracks_keys[] = {
     {"precracks", LIST_OF(KR_DECK_LIST, struct kr_case_crack, crack_keys), .offset = AT(cracks),
-     .text = "Straight cracks that are there from the beginning: they cut every bond that "
-             "crosses them."},
+     .text = "Cracks that are there from the beginning: they cut every bond that crosses or touches "
+             "them. In a plate straight or bent lines, in a solid polygons, discs and surfaces."},
     {"count_precrack", KR_DECK_BOOLEAN, AT(count_precrack), .fallback = "true",
      .text = "Whether the bonds cut by them count as broken in Damage."},
     {NULL},
@@ -180,17 +312,28 @@ static const struct kr_deck_key cracks_keys[] = {
 
 #define LOAD_AT(field) offsetof(struct kr_case_load, field)
 #define LOAD_OF(where, si)                                                                         \
-    .type = KR_DECK_FORMULAS, .offset = (where), .unit = (si), .count = 2, .fallback = ""
+    .type = KR_DECK_FORMULAS, .offset = (where), .unit = (si), .count = 3, .fallback = ""
 static const struct kr_deck_key load_keys[] = {
     {"set", KR_DECK_TEXT, LOAD_AT(set), .text = "Name of a set under `nodes.sets`."},
     {"displacement", LOAD_OF(LOAD_AT(displacement), "m"),
-     .text = "Prescribed displacement `[x, y]`; `free` leaves a component out."},
-    {"velocity", LOAD_OF(LOAD_AT(velocity), "m/s"), .text = "Prescribed velocity `[x, y]`."},
+     .text = "Prescribed displacement `[x, y]`, in a solid `[x, y, z]`; `free` leaves a component "
+             "out."},
+    {"velocity", LOAD_OF(LOAD_AT(velocity), "m/s"),
+     .text = "Prescribed velocity, with `free` likewise."},
     {"traction", LOAD_OF(LOAD_AT(traction), "Pa"),
      .text = "Force per area of the boundary that the set belongs to, spread over its nodes."},
     {"body_force", LOAD_OF(LOAD_AT(body_force), "N/m^3"), .text = "Force per volume."},
     {"ramp", NUMBER_OF(LOAD_AT(ramp), "s"), .fallback = "0 s", NOT_NEGATIVE,
      .text = "The load grows evenly from 0 to its full value in this time; 0: at once."},
+    {NULL},
+};
+
+static const struct kr_deck_key initial_keys[] = {
+    {"displacement", LOAD_OF(AT(initial_displacement), "m"),
+     .text = "Displacement of every node at time 0, an expression in x, y, z a component."},
+    {"velocity", LOAD_OF(AT(initial_velocity), "m/s"),
+     .text = "Velocity of every node at time 0, such as `[100*x m/s, 100*y m/s]` of a ring that flies "
+             "apart."},
     {NULL},
 };
 
@@ -255,6 +398,8 @@ const struct kr_deck_key kr_case_keys[] = {
      .text = "How kirsch-nodes turns cells into peridynamic nodes."},
     {"material", KR_DECK_SECTION, .keys = material_keys, .text = "What the plate is made of."},
     {"cracks", KR_DECK_SECTION, .keys = cracks_keys, .text = "Cracks before the run."},
+    {"initial", KR_DECK_SECTION, .keys = initial_keys,
+     .text = "How the run begins where it does not begin at rest. Prescribed motions win over it."},
     {"loads", LIST_OF(KR_DECK_LIST, struct kr_case_load, load_keys), .offset = AT(loads),
      .text = "What moves or pulls the plate. Each load has a set and just one of displacement, "
              "velocity, traction and body_force."},

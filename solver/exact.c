@@ -27,8 +27,8 @@ static double weight_of(const struct kr_bonds *b, const struct kr_bond *bond) {
 
 double kr_exact_pair_energy(const struct kr_bonds *b, const struct kr_bond *bond, double stretch) {
     const struct kr_material *m = &b->material;
-    return b->volume[bond->i] * b->volume[bond->j] * weight_of(b, bond) * m->micromodulus *
-           bond->length * m->law->energy(stretch);
+    return b->volume[bond->i] * b->volume[bond->j] * weight_of(b, bond) *
+           kr_material_micromodulus(m, bond->length) * bond->length * m->law->energy(stretch);
 }
 
 /* Force density of a bond on its node i. */
@@ -36,7 +36,8 @@ static void pair_force(const struct kr_kernel_work *work, const struct kr_bond *
                        double force[3]) {
     const struct kr_bonds *b = work->bonds;
     const struct kr_material *m = &b->material;
-    double pull = m->micromodulus * m->law->force(s) * weight_of(b, bond) * b->volume[bond->j];
+    double pull = kr_material_micromodulus(m, bond->length) * m->law->force(s) * weight_of(b, bond) *
+                  b->volume[bond->j];
     for (int d = 0; d < b->dim; d++) {
         double eta = work->u[d][bond->j] - work->u[d][bond->i];
         force[d] = pull * (bond->xi[d] + eta) / (bond->length * (1 + s));
@@ -67,6 +68,41 @@ void kr_exact_energy(const struct kr_kernel_work *work, size_t slice) {
     while (kr_bonds_next(b, &walk, &bond)) {
         double s = kr_exact_stretch(b, &bond, work->u);
         work->energy[bond.i] += 0.5 * kr_exact_pair_energy(b, &bond, s) / b->volume[bond.i];
+    }
+}
+
+/* With the unit vector m along the stretched bond, of length L (1+s), the pull F changes along m by
+ * F'(s) m.v/L and turns with the bond by F (v - (m.v) m)/(L (1+s)). */
+static void pair_product(const struct kr_kernel_work *work, const struct kr_bond *bond, double s,
+                         double product[3]) {
+    const struct kr_bonds *b = work->bonds;
+    const struct kr_material *m = &b->material;
+    double c = kr_material_micromodulus(m, bond->length);
+    double volume = c * weight_of(b, bond) * b->volume[bond->j] / bond->length;
+    double v[3], unit[3], along = 0;
+    for (int d = 0; d < b->dim; d++) {
+        v[d] = work->v[d][bond->j] - work->v[d][bond->i];
+        unit[d] = (bond->xi[d] + work->u[d][bond->j] - work->u[d][bond->i]) /
+                  (bond->length * (1 + s));
+        along += unit[d] * v[d];
+    }
+    for (int d = 0; d < b->dim; d++)
+        product[d] = volume * (m->law->stiffness(s) * along * unit[d] +
+                               m->law->force(s) / (1 + s) * (v[d] - along * unit[d]));
+}
+
+void kr_exact_product(const struct kr_kernel_work *work, size_t slice) {
+    const struct kr_bonds *b = work->bonds;
+    struct kr_bond_walk walk = kr_bonds_walk(b, slice);
+    struct kr_bond bond;
+    double product[3];
+    for (int d = 0; d < b->dim; d++)
+        for (size_t i = slice * KR_LANES; i < slice * KR_LANES + KR_LANES; i++)
+            work->product[d][i] = 0;
+    while (kr_bonds_next(b, &walk, &bond)) {
+        pair_product(work, &bond, kr_exact_stretch(b, &bond, work->u), product);
+        for (int d = 0; d < b->dim; d++)
+            work->product[d][bond.i] += product[d];
     }
 }
 
