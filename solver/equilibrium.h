@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Equilibrium of a body: displacements at which no free node is pulled; theory.md (24) to (26).
+ */
+#ifndef KR_EQUILIBRIUM_H
+#define KR_EQUILIBRIUM_H
+
+#include "body.h"
+
+/** What to find, and room for it. */
+struct kr_equilibrium {
+    struct kr_body *body;
+    unsigned char *fixed; /* (n) bit d set: component d of the node is prescribed */
+    double *move[3];      /* m: on prescribed components, how far they still have to go */
+    double *load[3];      /* N/m^3: body forces */
+    double tolerance;     /* of `residual` */
+    int (*stop)(void *);  /* asked between two products whether to give up; NULL: never */
+    void *stop_with;
+    int quiet; /* no lines of progress */
+
+    /* how it went */
+    enum kr_equilibrium_end {
+        KR_EQUILIBRIUM_FOUND,
+        KR_EQUILIBRIUM_SLOW,    /* no bound reached the tolerance */
+        KR_EQUILIBRIUM_SNAP,    /* no step lowers the energy: there is none near by */
+        KR_EQUILIBRIUM_STOPPED, /* by `stop` */
+    } end;
+    double residual; /* sum of |V f| over free components, as a share of that of what holds: half of
+                        the sums over the prescribed components and over the loads together */
+    double pull;     /* N: that sum */
+    int steps, products; /* of Newton; products of the stiffness with a vector, all together */
+
+    double *room[6][3]; /* vectors of the solver */
+};
+
+/** Room for the vectors; `fixed`, `move` and `load` are zero. Does not own the body. */
+struct kr_equilibrium *kr_equilibrium_create(struct kr_body *body);
+void kr_equilibrium_free(struct kr_equilibrium *equilibrium);
+
+/** Move the prescribed components by `move`, and the others to where the forces balance, starting
+ *  from body->u; body->force is that at the end, loads included. No bond breaks. Bonds that died
+ *  are seen; loose nodes stay where they are. Same bits for any number of threads. */
+enum kr_equilibrium_end kr_equilibrium_find(struct kr_equilibrium *equilibrium);
+
+/** force = that at body->u with the loads, and the residual of it. */
+double kr_equilibrium_residual(struct kr_equilibrium *equilibrium);
+
+#endif
