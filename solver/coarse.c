@@ -135,17 +135,20 @@ static void make_first(struct kr_coarse *c) {
         kr_grid_row_free(row[lane]);
 }
 
+static int is_zero(const double *block, size_t square) {
+    for (size_t k = 0; k < square; k++)
+        if (block[k] != 0)
+            return 0;
+    return 1;
+}
+
 static void join_blocks(struct kr_grid_maker *maker, const struct kr_grid_level *fine,
                         void (*link)(struct kr_grid_maker *, size_t, size_t)) {
     const size_t square = (size_t)(fine->dim * fine->dim);
     for (size_t v = 0; v < fine->n_vertices; v++)
-        for (size_t k = fine->first[v]; k < fine->first[v + 1]; k++) {
-            int coupled = 0;
-            for (size_t m = 0; m < square && !coupled; m++)
-                coupled = fine->block[k * square + m] != 0;
-            if (coupled && (size_t)fine->column[k] > v)
+        for (size_t k = fine->first[v]; k < fine->first[v + 1]; k++)
+            if (!is_zero(fine->block + k * square, square))
                 link(maker, v, (size_t)fine->column[k]);
-        }
 }
 
 static void make_next(struct kr_coarse *c) {
@@ -160,7 +163,8 @@ static void make_next(struct kr_coarse *c) {
     struct kr_grid_row *row = kr_grid_row_create(grid);
     for (size_t v = 0; v < fine->n_vertices; v++) {
         for (size_t k = fine->first[v]; k < fine->first[v + 1]; k++)
-            kr_grid_row_add(row, grid, (size_t)fine->column[k], fine->block + k * square);
+            if (!is_zero(fine->block + k * square, square))
+                kr_grid_row_add(row, grid, (size_t)fine->column[k], fine->block + k * square);
         kr_grid_row_end(row, grid, v);
     }
     kr_grid_row_free(row);
