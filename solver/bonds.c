@@ -158,8 +158,9 @@ static void make_kinds(struct builder *w) {
         /* Rounded to float32 as the general rows store it: both ends of a bond must agree. */
         kind->weight = (float)kr_weight_lattice(w->weights->partial_volume, b->dim, kind->xi,
                                                 m->horizon, w->size_of_lattice);
-        kind->pull = 0.5 * m->micromodulus * kind->weight * w->cell_volume / kind->length;
-        kind->store = 0.25 * m->micromodulus * kind->weight * w->cell_volume * kind->length;
+        double c = kr_material_micromodulus(m, kind->length);
+        kind->pull = 0.5 * c * kind->weight * w->cell_volume / kind->length;
+        kind->store = 0.25 * c * kind->weight * w->cell_volume * kind->length;
     }
 }
 

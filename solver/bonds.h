@@ -50,9 +50,9 @@ struct kr_bonds {
 
     /* per node; padded arrays of kr_bonds_padded */
     double *x[3];    /* m */
-    double *volume;  /* m^2 */
+    double *volume;  /* m^2; 3D: m^3 */
     double *factor;  /* lambda */
-    double *family_volume, *lost_volume; /* m^2: of the whole family, and behind broken bonds */
+    double *family_volume, *lost_volume; /* as `volume`: of the whole family, and behind broken bonds */
     unsigned char *no_fail;              /* bonds of this node never break */
 
     /* per slice */

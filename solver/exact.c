@@ -27,8 +27,8 @@ static double weight_of(const struct kr_bonds *b, const struct kr_bond *bond) {
 
 double kr_exact_pair_energy(const struct kr_bonds *b, const struct kr_bond *bond, double stretch) {
     const struct kr_material *m = &b->material;
-    return b->volume[bond->i] * b->volume[bond->j] * weight_of(b, bond) * m->micromodulus *
-           bond->length * m->law->energy(stretch);
+    return b->volume[bond->i] * b->volume[bond->j] * weight_of(b, bond) *
+           kr_material_micromodulus(m, bond->length) * bond->length * m->law->energy(stretch);
 }
 
 /* Force density of a bond on its node i. */
@@ -36,7 +36,8 @@ static void pair_force(const struct kr_kernel_work *work, const struct kr_bond *
                        double force[3]) {
     const struct kr_bonds *b = work->bonds;
     const struct kr_material *m = &b->material;
-    double pull = m->micromodulus * m->law->force(s) * weight_of(b, bond) * b->volume[bond->j];
+    double pull = kr_material_micromodulus(m, bond->length) * m->law->force(s) * weight_of(b, bond) *
+                  b->volume[bond->j];
     for (int d = 0; d < b->dim; d++) {
         double eta = work->u[d][bond->j] - work->u[d][bond->i];
         force[d] = pull * (bond->xi[d] + eta) / (bond->length * (1 + s));

@@ -5,7 +5,7 @@
  *
  *    f_i = sum_j c w_ij V_j (s/|xi+eta|) (xi+eta)        theory.md (7); plates paper eq. 11
  *    W_i = 1/2 sum_j w_ij V_j c |xi| energy(s)           theory.md (8)
- *    w_ij = (lambda_i + lambda_j)/2 phi_ij
+ *    w_ij = (lambda_i + lambda_j)/2 phi_ij,  c = c(|xi|)  theory.md (6e)
  *
  * without square root or division, by q = eta . (2 xi + eta) = |xi+eta|^2 - |xi|^2, e = q/|xi|^2 and
  * the polynomials of fit.h. q has no cancellation, however small the stretch.
@@ -137,8 +137,14 @@ INLINE void sum_lattice(struct lanes *l, const struct kr_kernel_work *work, int 
     }
 }
 
+/* Shares of the conical micromodulus at these lengths. */
+INLINE vector cone(vector length, double horizon) {
+    vector share = 1 - length / same(horizon);
+    return only(share, share > 0);
+}
+
 INLINE void sum_general(struct lanes *l, const struct kr_kernel_work *work, int dim, int terms,
-                        int energy, size_t slice, int part) {
+                        int conical, int energy, size_t slice, int part) {
     const struct kr_bonds *b = work->bonds;
     const float *inverse = b->inverse + KR_LANES * b->first_inverse[slice] + part * WIDTH;
     const float *weight = b->weight + KR_LANES * b->first_weight[slice] + part * WIDTH;
@@ -154,6 +160,8 @@ INLINE void sum_general(struct lanes *l, const struct kr_kernel_work *work, int 
         vector root = load_floats(inverse);
         root = root * (1.5 - 0.5 * square * root * root);
         vector scale = c * load(b->volume + j) * (energy ? square * root : root);
+        if (conical)
+            scale *= cone(square * root, b->material.horizon);
         if (b->kind[r]) {
             scale *= load_floats(weight);
             weight += KR_LANES;
@@ -168,7 +176,7 @@ INLINE void sum_general(struct lanes *l, const struct kr_kernel_work *work, int 
 }
 
 /* One slice, WIDTH lanes at a time. */
-INLINE void do_slice(const struct kr_kernel_work *work, int dim, int terms, int energy,
+INLINE void do_slice(const struct kr_kernel_work *work, int dim, int terms, int conical, int energy,
                      size_t slice) {
     const struct kr_bonds *b = work->bonds;
     unsigned char flag = 0;
@@ -182,7 +190,7 @@ INLINE void do_slice(const struct kr_kernel_work *work, int dim, int terms, int 
         if (b->lattice[slice])
             sum_lattice(&l, work, dim, terms, energy, slice, part);
         else
-            sum_general(&l, work, dim, terms, energy, slice, part);
+            sum_general(&l, work, dim, terms, conical, energy, slice, part);
         if (energy)
             store(work->energy + l.node, l.sum[0]);
         for (int d = 0; d < dim && !energy; d++)
@@ -193,29 +201,40 @@ INLINE void do_slice(const struct kr_kernel_work *work, int dim, int terms, int 
 }
 
 /* The common lengths of the polynomials are constants, so that their loops unroll. */
-INLINE void do_slices(const struct kr_kernel_work *work, int energy, size_t begin, size_t end) {
+INLINE void do_slices(const struct kr_kernel_work *work, int dim, int conical, int energy,
+                      size_t begin, size_t end) {
     const struct kr_fit *fit = &work->bonds->fit;
-    const int terms = energy ? fit->store.terms : fit->pull.terms, dim = work->bonds->dim;
-    if (dim == 2 && terms == 8)
+    const int terms = energy ? fit->store.terms : fit->pull.terms;
+    if (terms == 8)
         for (size_t slice = begin; slice < end; slice++)
-            do_slice(work, 2, 8, energy, slice);
-    else if (dim == 2 && terms == 10)
+            do_slice(work, dim, 8, conical, energy, slice);
+    else if (terms == 10)
         for (size_t slice = begin; slice < end; slice++)
-            do_slice(work, 2, 10, energy, slice);
-    else if (dim == 2)
-        for (size_t slice = begin; slice < end; slice++)
-            do_slice(work, 2, terms, energy, slice);
+            do_slice(work, dim, 10, conical, energy, slice);
     else
         for (size_t slice = begin; slice < end; slice++)
-            do_slice(work, 3, terms, energy, slice);
+            do_slice(work, dim, terms, conical, energy, slice);
+}
+
+/* So are the dimension and the profile of the micromodulus. */
+INLINE void do_body(const struct kr_kernel_work *work, int energy, size_t begin, size_t end) {
+    const int conical = work->bonds->material.profile == KR_CONICAL;
+    if (work->bonds->dim == 2 && !conical)
+        do_slices(work, 2, 0, energy, begin, end);
+    else if (work->bonds->dim == 2)
+        do_slices(work, 2, 1, energy, begin, end);
+    else if (!conical)
+        do_slices(work, 3, 0, energy, begin, end);
+    else
+        do_slices(work, 3, 1, energy, begin, end);
 }
 
 static void force(const struct kr_kernel_work *work, size_t begin, size_t end) {
-    do_slices(work, 0, begin, end);
+    do_body(work, 0, begin, end);
 }
 
 static void energy(const struct kr_kernel_work *work, size_t begin, size_t end) {
-    do_slices(work, 1, begin, end);
+    do_body(work, 1, begin, end);
 }
 
 extern const struct kr_kernel KR_KERNEL;
