@@ -53,7 +53,8 @@ static double stiffness_of(const struct kr_bonds *b, const struct kr_bond *bond,
     double s = kr_exact_stretch(b, bond, from);
     double slope = (m->law->force(s + h) - m->law->force(s - h)) / (2 * h);
     double weight = 0.5 * (b->factor[bond->i] + b->factor[bond->j]) * bond->weight;
-    return fmax(0, b->volume[bond->i] * b->volume[bond->j] * weight * m->micromodulus * slope /
+    return fmax(0, b->volume[bond->i] * b->volume[bond->j] * weight *
+                       kr_material_micromodulus(m, bond->length) * slope /
                        bond->length);
 }
 

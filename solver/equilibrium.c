@@ -28,10 +28,9 @@ enum { SOLUTION, REST, PRECONDITIONED, DIRECTION, PRODUCT, MOVED, VECTORS };
 struct kr_equilibrium *kr_equilibrium_create(struct kr_body *body) {
     struct kr_equilibrium *q = KR_NEW(struct kr_equilibrium, 1);
     *q = (struct kr_equilibrium){.body = body, .tolerance = 1e-6};
-    q->fixed = KR_NEW(unsigned char, body->n);
+    q->rest = kr_rest_create(body);
     for (int d = 0; d < body->dim; d++) {
         q->move[d] = kr_bonds_padded(body->n);
-        q->load[d] = kr_bonds_padded(body->n);
         for (int k = 0; k < VECTORS; k++)
             q->room[k][d] = kr_bonds_padded(body->n);
     }
@@ -41,11 +40,10 @@ struct kr_equilibrium *kr_equilibrium_create(struct kr_body *body) {
 void kr_equilibrium_free(struct kr_equilibrium *q) {
     for (int d = 0; d < q->body->dim; d++) {
         kr_bonds_padded_free(q->move[d]);
-        kr_bonds_padded_free(q->load[d]);
         for (int k = 0; k < VECTORS; k++)
             kr_bonds_padded_free(q->room[k][d]);
     }
-    kr_free(q->fixed);
+    kr_rest_free(q->rest);
     kr_free(q);
 }
 
@@ -78,33 +76,14 @@ static double largest_of(const struct kr_body *body, double *const v[3]) {
     return most;
 }
 
-static double free_of_node(const void *context, size_t i) {
-    const struct kr_equilibrium *q = context;
-    double sum = 0;
-    for (int d = 0; d < q->body->dim; d++)
-        if (!(q->fixed[i] >> d & 1))
-            sum += fabs(q->body->force[d][i]);
-    return sum * q->body->bonds->volume[i];
-}
-
-static double pull_of_node(const void *context, size_t i) {
-    const struct kr_equilibrium *q = context;
-    double sum = 0;
-    for (int d = 0; d < q->body->dim; d++)
-        sum += fabs(q->load[d][i]) + (q->fixed[i] >> d & 1 ? fabs(q->body->force[d][i]) : 0);
-    return 0.5 * sum * q->body->bonds->volume[i];
-}
-
 double kr_equilibrium_residual(struct kr_equilibrium *q) {
     struct kr_body *body = q->body;
     kr_body_force(body, 0);
     for (int d = 0; d < body->dim; d++)
 #pragma omp parallel for schedule(static)
         for (size_t i = 0; i < body->n; i++)
-            body->force[d][i] += q->load[d][i];
-    double left = kr_body_sum(body->n, free_of_node, q);
-    q->pull = kr_body_sum(body->n, pull_of_node, q);
-    return q->residual = left == 0 ? 0 : left / q->pull;
+            body->force[d][i] += q->rest->load[d][i];
+    return kr_rest_measure(q->rest);
 }
 
 /* ---- the linear problem ---- */
@@ -134,13 +113,13 @@ static void multiply(struct kr_equilibrium *q, const struct kr_coarse *coarse, d
         body->force[d] = force[d];
 #pragma omp parallel for schedule(static)
         for (size_t i = 0; i < body->n; i++)
-            y[d][i] = volume[i] * (force[d][i] - q->load[d][i] - y[d][i]) / h;
+            y[d][i] = volume[i] * (force[d][i] - q->rest->load[d][i] - y[d][i]) / h;
     }
     kr_coarse_add_diagonal(coarse, SHIFT, v, y);
     for (int d = 0; d < body->dim; d++)
 #pragma omp parallel for schedule(static)
         for (size_t i = 0; i < body->n; i++)
-            if (q->fixed[i] >> d & 1)
+            if (q->rest->fixed[i] >> d & 1)
                 y[d][i] = 0;
     q->products++;
 }
@@ -160,7 +139,7 @@ static void begin(struct kr_equilibrium *q, const struct kr_coarse *coarse) {
     for (int d = 0; d < body->dim; d++)
 #pragma omp parallel for schedule(static)
         for (size_t i = 0; i < body->n; i++) {
-            int fixed = q->fixed[i] >> d & 1;
+            int fixed = q->rest->fixed[i] >> d & 1;
             x[d][i] = fixed ? q->move[d][i] : 0;
             r[d][i] = fixed ? 0 : body->bonds->volume[i] * body->force[d][i];
         }
@@ -173,7 +152,7 @@ static void begin(struct kr_equilibrium *q, const struct kr_coarse *coarse) {
 static void show(struct kr_equilibrium *q, struct kr_progress *progress, double share, int k) {
     if (!q->quiet)
         kr_progress_note(progress, "  step %d of Newton, residual %.1e: product %d, rest %.1e, %.2f times "
-                         "less each", q->steps + 1, q->residual, k, share, k ? pow(share, -1.0 / k) : 1);
+                         "less each", q->steps + 1, q->rest->residual, k, share, k ? pow(share, -1.0 / k) : 1);
 }
 
 /* Conjugate gradients until sqrt(r.z) is `enough` of what it was. Curvature that is not positive ends
@@ -219,7 +198,7 @@ static double slope_of_node(const void *context, size_t i) {
     const struct kr_equilibrium *q = context;
     double sum = 0;
     for (int d = 0; d < q->body->dim; d++)
-        if (!(q->fixed[i] >> d & 1))
+        if (!(q->rest->fixed[i] >> d & 1))
             sum += q->body->force[d][i] * q->room[SOLUTION][d][i];
     return sum * q->body->bonds->volume[i];
 }
@@ -228,7 +207,7 @@ static double slope_of_node(const void *context, size_t i) {
  * that never is. A step that moves supports is gone whole. */
 static int go(struct kr_equilibrium *q, int moves) {
     struct kr_body *body = q->body;
-    const double before = q->residual, slope = kr_body_sum(body->n, slope_of_node, q);
+    const double before = q->rest->residual, slope = kr_body_sum(body->n, slope_of_node, q);
     double share = 1;
     add(body, body->u, 1, q->room[SOLUTION]);
     for (int k = 0; k < MOST_HALVINGS; k++) {
@@ -246,10 +225,10 @@ static enum kr_equilibrium_end iterate(struct kr_equilibrium *q, struct kr_coars
                                        struct kr_progress *progress) {
     int moves = largest_of(q->body, q->move) > 0;
     for (q->steps = 0; q->steps < MOST_STEPS; q->steps++) {
-        if (!moves && q->residual <= q->tolerance)
+        if (!moves && q->rest->residual <= q->tolerance)
             return KR_EQUILIBRIUM_FOUND;
         /* Nearly linear: the first step lands at about the strain; after it the tolerance is near. */
-        double enough = moves ? 1e-3 : fmin(1e-2, fmax(1e-4, 0.3 * q->tolerance / q->residual));
+        double enough = moves ? 1e-3 : fmin(1e-2, fmax(1e-4, 0.3 * q->tolerance / q->rest->residual));
         begin(q, coarse);
         if (!solve(q, coarse, enough, progress))
             return KR_EQUILIBRIUM_STOPPED;
@@ -259,14 +238,14 @@ static enum kr_equilibrium_end iterate(struct kr_equilibrium *q, struct kr_coars
             memset(q->move[d], 0, q->body->n * sizeof(double));
         moves = 0;
     }
-    return q->residual <= q->tolerance ? KR_EQUILIBRIUM_FOUND : KR_EQUILIBRIUM_SLOW;
+    return q->rest->residual <= q->tolerance ? KR_EQUILIBRIUM_FOUND : KR_EQUILIBRIUM_SLOW;
 }
 
 enum kr_equilibrium_end kr_equilibrium_find(struct kr_equilibrium *q) {
     struct kr_progress progress = kr_progress_begin("equilibrium", 0, 0);
     q->products = 0;
     kr_equilibrium_residual(q);
-    struct kr_coarse *coarse = kr_coarse_create(q->body, q->fixed);
+    struct kr_coarse *coarse = kr_coarse_create(q->body, q->rest->fixed);
     q->end = iterate(q, coarse, &progress);
     kr_coarse_free(coarse);
     kr_progress_wipe(&progress);

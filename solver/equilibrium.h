@@ -5,15 +5,14 @@
 #ifndef KR_EQUILIBRIUM_H
 #define KR_EQUILIBRIUM_H
 
-#include "body.h"
+#include "rest.h"
 
 /** What to find, and room for it. */
 struct kr_equilibrium {
     struct kr_body *body;
-    unsigned char *fixed; /* (n) bit d set: component d of the node is prescribed */
+    struct kr_rest *rest; /* what is prescribed, the loads, and the residual */
     double *move[3];      /* m: on prescribed components, how far they still have to go */
-    double *load[3];      /* N/m^3: body forces */
-    double tolerance;     /* of `residual` */
+    double tolerance;     /* of rest->residual */
     int (*stop)(void *);  /* asked between two products whether to give up; NULL: never */
     void *stop_with;
     int quiet; /* no lines of progress */
@@ -25,15 +24,12 @@ struct kr_equilibrium {
         KR_EQUILIBRIUM_SNAP,    /* no step lowers the energy: there is none near by */
         KR_EQUILIBRIUM_STOPPED, /* by `stop` */
     } end;
-    double residual; /* sum of |V f| over free components, as a share of that of what holds: half of
-                        the sums over the prescribed components and over the loads together */
-    double pull;     /* N: that sum */
     int steps, products; /* of Newton; products of the stiffness with a vector, all together */
 
     double *room[6][3]; /* vectors of the solver */
 };
 
-/** Room for the vectors; `fixed`, `move` and `load` are zero. Does not own the body. */
+/** Room for the vectors; nothing is prescribed or loaded yet. Does not own the body. */
 struct kr_equilibrium *kr_equilibrium_create(struct kr_body *body);
 void kr_equilibrium_free(struct kr_equilibrium *equilibrium);
 
@@ -42,7 +38,7 @@ void kr_equilibrium_free(struct kr_equilibrium *equilibrium);
  *  are seen; loose nodes stay where they are. Same bits for any number of threads. */
 enum kr_equilibrium_end kr_equilibrium_find(struct kr_equilibrium *equilibrium);
 
-/** force = that at body->u with the loads, and the residual of it. */
+/** body->force = that at body->u with the loads; returns the residual. */
 double kr_equilibrium_residual(struct kr_equilibrium *equilibrium);
 
 #endif
