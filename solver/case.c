@@ -171,16 +171,37 @@ static const struct kr_deck_key material_keys[] = {
     {NULL},
 };
 
+#define CRACK_AT(field) offsetof(struct kr_case_crack, field)
+#define VECTOR_3(where, si)                                                                        \
+    .type = KR_DECK_VECTOR, .offset = (where), .unit = (si), .count = 3, .fallback = ""
+static const struct kr_deck_key disc_keys[] = {
+    {"centre", VECTOR_3(CRACK_AT(centre), "m"), .text = "Its centre."},
+    {"normal", VECTOR_3(CRACK_AT(normal), "1"), .text = "Across it, of any length: `[0, 0, 1]`."},
+    {"radius", NUMBER_OF(CRACK_AT(radius), "m"), .fallback = "", POSITIVE, .text = "Its radius."},
+    {NULL},
+};
+
 static const struct kr_deck_key crack_keys[] = {
-    {"from", PLACE_OF(offsetof(struct kr_case_crack, from)), .text = "One end."},
-    {"to", PLACE_OF(offsetof(struct kr_case_crack, to)), .text = "The other end."},
+    {"from", VECTOR_OF(CRACK_AT(from)), .fallback = "",
+     .text = "In a plate: one end of a straight crack. Goes with `to`."},
+    {"to", VECTOR_OF(CRACK_AT(to)), .fallback = "", .text = "The other end."},
+    {"points", KR_DECK_NUMBERS, CRACK_AT(points), .unit = "m", .count = 2, .fallback = "",
+     .text = "In a plate: the corners of a crack with bends, from end to end."},
+    {"polygon", KR_DECK_NUMBERS, CRACK_AT(polygon), .unit = "m", .count = 3, .fallback = "",
+     .text = "In a solid: the corners of a plane polygon in turn."},
+    {"disc", KR_DECK_SECTION, .keys = disc_keys, .text = "In a solid: a round crack (penny)."},
+    {"file", KR_DECK_TEXT, CRACK_AT(file), .fallback = "",
+     .text = "In a solid: a surface of triangles, open or closed; an STL file, binary or ASCII; a path "
+             "from the deck's folder."},
+    {"unit", NUMBER_OF(CRACK_AT(unit), "m"), .fallback = "", POSITIVE,
+     .text = "What 1 in the STL file stands for, `1 mm`. Goes with `file`."},
     {NULL},
 };
 
 static const struct kr_deck_key cracks_keys[] = {
     {"precracks", LIST_OF(KR_DECK_LIST, struct kr_case_crack, crack_keys), .offset = AT(cracks),
-     .text = "Straight cracks that are there from the beginning: they cut every bond that "
-             "crosses them."},
+     .text = "Cracks that are there from the beginning: they cut every bond that crosses or touches "
+             "them. In a plate straight or bent lines, in a solid polygons, discs and surfaces."},
     {"count_precrack", KR_DECK_BOOLEAN, AT(count_precrack), .fallback = "true",
      .text = "Whether the bonds cut by them count as broken in Damage."},
     {NULL},

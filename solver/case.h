@@ -81,8 +81,14 @@ struct kr_case_set {
     double lower[3], upper[3]; /* m: or nodes in this box */
 };
 
+/* A crack before the run: a line in a plate; a polygon, disc or surface of triangles in a solid. */
 struct kr_case_crack {
-    double from[3], to[3]; /* m */
+    double from[2], to[2];       /* m: straight, or ... */
+    struct kr_deck_list points;  /* double, m: x and y of the corners of a line with bends */
+    struct kr_deck_list polygon; /* double, m: x, y, z of the corners of a plane polygon */
+    double centre[3], normal[3], radius; /* m, 1, m: disc */
+    const char *file; /* STL */
+    double unit;      /* m: what 1 in the file stands for */
 };
 
 struct kr_case_load {
@@ -206,6 +212,16 @@ void kr_case_check(struct kr_deck *deck, const struct kr_case *c);
 
 /** Dimensions of the body: 3 for a solid, else 2. */
 int kr_case_dim(const struct kr_case *c);
+
+/** The part of it that looks at pre-cracks. */
+void kr_case_check_cracks(struct kr_deck *deck, const struct kr_case *c);
+
+/** Normal of a polygon in space (n x 3), as long as twice its area; 0 for one without. */
+void kr_case_normal(size_t n, const double *corner, double normal[3]);
+
+/** Whether the deck gives components for a vector, and as many as the model has dimensions; a fault
+ *  where it gives others. */
+int kr_case_check_count(struct kr_deck *deck, const struct kr_case *c, const void *vector);
 
 /** The part of it that looks at outline, holes and pores. */
 void kr_case_check_geometry(struct kr_deck *deck, const struct kr_case *c);

@@ -17,10 +17,6 @@ static const double most_nodes = 2e9;
 /* Quotients of decimals miss by a few bits: 0.16 mm holds "3 spacings" of 0.16/3 mm. */
 static const double rounding = 1e-9;
 
-static double larger(const double *of) {
-    return of[0] > of[1] ? of[0] : of[1];
-}
-
 static void check_mesh(struct kr_deck *deck, const struct kr_case *c) {
     double narrow = fmin(c->width, c->height);
     if (!(c->spacing > 0) || !(narrow > 0))
@@ -49,8 +45,7 @@ static int is_name(const char *text) {
     return *text && !text[strspn(text, good)];
 }
 
-/* Whether a vector that the deck gives has one component an axis; a fault if not. */
-static int check_count(struct kr_deck *deck, const struct kr_case *c, const void *vector) {
+int kr_case_check_count(struct kr_deck *deck, const struct kr_case *c, const void *vector) {
     size_t count = kr_deck_count(deck, vector), dim = (size_t)kr_case_dim(c);
     if (count && count != dim)
         kr_deck_fault(deck, vector, "found %zu component%s, expected %zu: the model is %s", count,
@@ -83,7 +78,7 @@ static void check_set(struct kr_deck *deck, const struct kr_case *c,
     else if (lower != upper)
         kr_deck_fault(deck, &set->name, "'%s' goes with '%s', which is missing",
                       lower ? "lower" : "upper", lower ? "upper" : "lower");
-    else if (lower && check_count(deck, c, set->lower) && check_count(deck, c, set->upper))
+    else if (lower && kr_case_check_count(deck, c, set->lower) && kr_case_check_count(deck, c, set->upper))
         check_box(deck, set->lower, set->upper, kr_case_dim(c));
     else if (!lower && !within)
         kr_deck_fault(deck, &set->name,
@@ -119,7 +114,7 @@ static void check_load(struct kr_deck *deck, const struct kr_case *c,
         kr_deck_fault(deck, &load->set,
                       "the load does nothing; expected one of displacement, velocity, traction and "
                       "body_force");
-    else if (check_count(deck, c, first) && is_all_free(first))
+    else if (kr_case_check_count(deck, c, first) && is_all_free(first))
         kr_deck_fault(deck, first, "all components are free; the load does nothing");
 }
 
@@ -138,22 +133,6 @@ static void check_sets_and_loads(struct kr_deck *deck, const struct kr_case *c) 
     check_loads(deck, c, &c->loads);
     for (size_t k = 0; k < c->stages.count; k++)
         check_loads(deck, c, &stages[k].loads);
-}
-
-static void check_cracks(struct kr_deck *deck, const struct kr_case *c) {
-    const struct kr_case_crack *cracks = c->cracks.item;
-    for (size_t i = 0; i < c->cracks.count; i++) {
-        const double *from = cracks[i].from, *to = cracks[i].to;
-        int outside = larger((double[]){from[0], to[0]}) <= 0 || fmin(from[0], to[0]) >= c->width ||
-                      larger((double[]){from[1], to[1]}) <= 0 || fmin(from[1], to[1]) >= c->height;
-        if (!check_count(deck, c, from) || !check_count(deck, c, to))
-            continue;
-        if (from[0] == to[0] && from[1] == to[1])
-            kr_deck_fault(deck, to, "the crack ends where it begins, (%g, %g) m", to[0], to[1]);
-        else if (outside && c->width > 0 && c->height > 0)
-            kr_deck_fault(deck, from, "the crack lies outside the plate of %g m x %g m", c->width,
-                          c->height);
-    }
 }
 
 static void check_times(struct kr_deck *deck, const struct kr_case *c) {
@@ -200,7 +179,7 @@ void kr_case_check(struct kr_deck *deck, const struct kr_case *c) {
     check_mesh(deck, c);
     kr_case_check_geometry(deck, c);
     check_sets_and_loads(deck, c);
-    check_cracks(deck, c);
+    kr_case_check_cracks(deck, c);
     kr_case_check_stages(deck, c);
     check_times(deck, c);
     for (size_t i = 0; i < c->boxes.count; i++)

@@ -51,7 +51,7 @@ static const struct step steps[] = {
      {"run.h5", "run/crack.h5", "tips.csv", "pores.txt"},
      {"pictures/damage.png"}},
 };
-enum { PORES, MESH, NODES, STEPS = sizeof steps / sizeof steps[0] };
+enum { PORES, MESH, NODES, SOLVE, STEPS = sizeof steps / sizeof steps[0] };
 
 /* What the steps work on. */
 struct job {
@@ -87,11 +87,26 @@ static uint64_t hash_file(uint64_t hash, const struct kr_case *c, const char *na
     return hash;
 }
 
+/* Files of pre-cracks. */
+static uint64_t hash_cracks(uint64_t hash, const struct job *job) {
+    const struct kr_case_crack *crack = job->c.cracks.item;
+    for (size_t k = 0; k < job->c.cracks.count; k++) {
+        if (!crack[k].file)
+            continue;
+        char *path = kr_deck_beside(job->deck, crack[k].file);
+        hash = hash_path(hash, path);
+        kr_free(path);
+    }
+    return hash;
+}
+
 static uint64_t stamp_of(const struct job *job, const struct step *step) {
     char *sections = kr_deck_resolved(job->deck, step->sections);
     uint64_t hash = hash_text(hash_text(KR_HASH_BEGIN, kr_version()), sections);
     if (job->mesh && step == &steps[NODES])
         hash = hash_path(hash, job->mesh);
+    if (step == &steps[SOLVE])
+        hash = hash_cracks(hash, job);
     for (int k = 0; k < 4 && step->inputs[k]; k++)
         hash = hash_file(hash, &job->c, step->inputs[k]);
     kr_free(sections);
@@ -320,9 +335,7 @@ int main(int argc, char **argv) {
     take_own_arguments(&job);
     job.deck = kr_case_open(&job.arguments, &job.c);
     if (job.c.mesh_file && *job.c.mesh_file)
-        job.mesh = job.c.mesh_file[0] == '/'
-                       ? kr_text_copy(job.c.mesh_file)
-                       : kr_text("%s/%s", kr_deck_folder(job.deck), job.c.mesh_file);
+        job.mesh = kr_deck_beside(job.deck, job.c.mesh_file);
     if (job.arguments.explain) {
         explain(&job);
     } else {

@@ -336,6 +336,26 @@ static const struct row {
      "case.yaml:22:23: cracks.precracks.0.from: the crack lies outside the plate of 0.05 m x 0.025 "
      "m\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_precrack_half_given", ", to: [3 mm, 12 mm]", "", NULL, NULL,
+     "case.yaml:22:16: cracks.precracks.0.to: missing; expected to: [2 mm, 5 mm]\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_precrack_of_two_kinds", "to: [3 mm, 12 mm]",
+     "to: [3 mm, 12 mm], points: [[1 mm, 1 mm], [2 mm, 2 mm]]", NULL, NULL,
+     "case.yaml:22:66: cracks.precracks.0.points: points beside from and to; make it a crack of its "
+     "own\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_precrack_of_one_point", "from: [0 mm, 12 mm], to: [3 mm, 12 mm]",
+     "points: [[1 mm, 1 mm]]", NULL, NULL,
+     "case.yaml:22:26: cracks.precracks.0.points: found 1 corners, expected two or more\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_precrack_of_a_solid_in_a_plate", "from: [0 mm, 12 mm], to: [3 mm, 12 mm]",
+     "disc: {centre: [1 mm, 1 mm, 1 mm], normal: [0, 0, 1], radius: 1 mm}", NULL, NULL,
+     "case.yaml:22:32: cracks.precracks.0.disc.centre: a surface cuts a solid, and the model is a "
+     "plate; take from and to, or points\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_precrack_of_no_kind", "{from: [0 mm, 12 mm], to: [3 mm, 12 mm]}", "{}", NULL, NULL,
+     "cracks.precracks.0.from: empty; expected from and to, points, polygon, disc or file\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_time_step_above_end_time", "end_time: 50 us", "end_time: 50 us, time_step: 1 ms", NULL,
      NULL,
      "case.yaml:27:38: solver.time_step: 0.001 s is more than end_time, 5e-05 s\n"
@@ -440,6 +460,43 @@ static void check_row(void **state) {
     write_deck(row->find, row->replace);
     kr_check_stops(open_row, row, KR_EXIT_INPUT, row->said);
     assert_int_equal(kr_memory_outstanding(), 0);
+}
+
+/* ---- solids ---- */
+
+/* Pre-cracks of a solid: what each row puts in the place of X, and the only fault. */
+static void solid_faults_of_precracks_are_named(void **state) {
+    static const struct row wrong[] = {
+        {"", "polygon: [[0 mm, 0 mm, 0 mm], [1 mm, 0 mm, 0 mm]]", "", NULL, NULL,
+         "cracks.precracks.0.polygon: found 2 corners, expected three or more\n"},
+        {"", "polygon: [[0 mm, 0 mm], [1 mm, 0 mm, 0 mm], [1 mm, 1 mm, 0 mm]]", "", NULL, NULL,
+         "cracks.precracks.0.polygon.0: found a list of 2, expected a list of lists of 3, each a length "
+         "in mm\n"},
+        {"", "polygon: [[0 mm, 0 mm, 0 mm], [1 mm, 1 mm, 1 mm], [2 mm, 2 mm, 2 mm]]", "", NULL, NULL,
+         "cracks.precracks.0.polygon: the polygon has no area\n"},
+        {"", "polygon: [[0 mm, 0 mm, 0 mm], [1 mm, 0 mm, 0 mm], [1 mm, 1 mm, 0 mm], [0 mm, 1 mm, 1 mm]]",
+         "", NULL, NULL, "off the plane of the polygon; a bent surface comes from a file\n"},
+        {"", "disc: {centre: [1 mm, 1 mm, 1 mm], normal: [0, 0, 0], radius: 1 mm}", "", NULL, NULL,
+         "cracks.precracks.0.disc.normal: the normal has no length; expected one such as [0, 0, 1]\n"},
+        {"", "disc: {centre: [1 mm, 1 mm, 1 mm], radius: 1 mm}", "", NULL, NULL,
+         "cracks.precracks.0.disc.normal: missing; expected normal: [0, 0, 1]\n"},
+        {"", "file: crack.stl", "", NULL, NULL,
+         "cracks.precracks.0.unit: missing; expected unit: 1 mm, what 1 in the file stands for\n"},
+        {"", "from: [0 mm, 0 mm], to: [1 mm, 1 mm]", "", NULL, NULL,
+         "cracks.precracks.0.to: a line cuts a plate, and the model is solid; take polygon, disc or "
+         "file\n"},
+    };
+    (void)state;
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        char said[512], text[512];
+        struct row row = {.set = text, .said = said};
+        snprintf(text, sizeof text, "cracks.precracks=[{%s}]", wrong[k].find);
+        snprintf(said, sizeof said, "%skirsch: 3 faults in case.yaml; nothing was done\n",
+                 wrong[k].said);
+        /* The two loads of the plate's deck have two components: two faults beside the one. */
+        write_deck("model: plane-stress", "model: solid");
+        kr_check_stops(open_row, &row, KR_EXIT_INPUT, said);
+    }
 }
 
 /* ---- what is right ---- */
@@ -632,7 +689,8 @@ static void arguments_help_and_stop(void **state) {
 }
 
 int main(void) {
-    struct CMUnitTest tests[ROWS + 8] = {
+    struct CMUnitTest tests[ROWS + 9] = {
+        cmocka_unit_test(solid_faults_of_precracks_are_named),
         cmocka_unit_test(case_is_read_in_si),
         cmocka_unit_test(case_check_says_so_and_makes_nothing),
         cmocka_unit_test(case_makes_its_folder_with_parents),
@@ -644,7 +702,7 @@ int main(void) {
     };
     char folder[] = "/tmp/kirsch-decks-XXXXXX", filter[256];
     for (size_t i = 0; i < ROWS; i++)
-        tests[8 + i] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, (void *)&rows[i]};
+        tests[9 + i] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, (void *)&rows[i]};
     if (!mkdtemp(folder) || chdir(folder))
         return 1;
     snprintf(filter, sizeof filter, "*%s*", getenv("ONLY") ? getenv("ONLY") : "");
