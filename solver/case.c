@@ -238,8 +238,8 @@ static const struct kr_deck_key steps_keys[] = {
 static const struct kr_deck_key stage_keys[] = {
     {"kind", KR_DECK_CHOICE, STAGE_AT(kind), .words = KR_STAGE_WORDS,
      .text = "`dynamic`: motion in time; `static`: load step by load step to equilibrium, breaking "
-             "bonds until none is past its limit; `relaxation`: motion that is stopped whenever it "
-             "slows down, until it rests."},
+             "bonds until none is past its limit; `relaxation`: motion that is damped "
+             "until it rests."},
     {"loads", LIST_OF(KR_DECK_LIST, struct kr_case_load, load_keys), .offset = STAGE_AT(loads),
      .text = "Loads of this stage alone, in place of the deck's. In all loads `t` is the stage's "
              "clock, which begins at 0."},

@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "precrack.h"
+#include "rest.h"
 #include "time_step.h"
 #include "wave.h"
 #include "weight.h"
@@ -145,7 +146,7 @@ static void plan_stages(struct kr_run *run, struct kr_deck *deck) {
     const struct kr_case_stage *from = c->stages.item;
     struct kr_time_step found;
     double dt = choose_time_step(run, deck, &found);
-    run->dt = dt;
+    run->dt = run->safe_step = dt;
     for (size_t k = 0; k < run->n_stages; k++) {
         struct kr_stage *stage = &run->stage[k];
         *stage = (struct kr_stage){.kind = KR_STAGE_DYNAMIC, .breaks = 1};
@@ -160,7 +161,8 @@ static void plan_stages(struct kr_run *run, struct kr_deck *deck) {
         if (stage->kind == KR_STAGE_STATIC)
             plan_static(stage);
         else
-            plan_moving(run, stage, run->staged ? from[k].end_time : c->end_time, dt, &found);
+            plan_moving(run, stage, run->staged ? from[k].end_time : c->end_time,
+                        stage->kind == KR_STAGE_RELAXATION ? KR_REST_STEP * dt : dt, &found);
         run->steps += stage->steps;
     }
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * How far a body is from rest, and motion that is stopped until it is there (relaxation); theory.md (25),
+ * How far a body is from rest, and motion that is damped until it is there (relaxation); theory.md (25),
  * (28).
  */
 #ifndef KR_REST_H
@@ -8,6 +8,10 @@
 
 #include "body.h"
 #include "boundary.h"
+
+/** Share of a safe time step that is safe with kr_rest_damp: forces grow by up to 1.8, frequencies by
+ *  the root of that. */
+#define KR_REST_STEP 0.7
 
 struct kr_rest {
     struct kr_body *body; /* not owned */
@@ -29,12 +33,13 @@ void kr_rest_loads(struct kr_rest *rest, struct kr_boundary *boundary, double t)
  *  force at all. */
 double kr_rest_measure(struct kr_rest *rest);
 
-/** Stop all free nodes where the forces hold against the motion: the energy is then at its least along
- *  the way. Forces and velocities as the time loop has them. */
-void kr_rest_stop(struct kr_rest *rest);
+/** Local damping: each force on a free node becomes weaker by 0.8 of it where it drives the motion and
+ *  stronger by as much where it holds against it; theory.md (28). */
+void kr_rest_damp(struct kr_rest *rest);
 
-/** One step of a relaxation: kr_rest_stop with the loads of time t [s]. Returns whether the body rests
- *  (residual up to `tolerance`) under loads that do not change any more until `end` [s]. */
+/** One step of a relaxation: find the residual with the loads of time t [s], then damp the forces.
+ *  Returns whether the body rests (residual up to `tolerance`) under loads that do not change any more
+ *  until `end` [s]. */
 int kr_rest_step(struct kr_rest *rest, struct kr_boundary *boundary, double t, double end,
                  double tolerance);
 

@@ -33,6 +33,7 @@ struct kr_run {
     size_t n_stages;
     struct kr_stage *stage;        /* (n_stages) */
     struct kr_boundary **boundary; /* (n_stages): the loads of each */
+    double safe_step;              /* s: longest step in time that is safe */
     double dt;                     /* s, of the last stage that has steps in time */
     long steps;                    /* of all stages together */
 };

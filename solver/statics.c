@@ -7,7 +7,7 @@
  *
  * The body goes from one equilibrium to the next without motion; what a crack sets free on the way is
  * lost, and stands in the balance of the ledger. Where Newton finds no equilibrium near by (a snap), the
- * body is let go and stopped until it rests, and Newton ends what that began.
+ * body is let go in motion that is damped, and Newton ends what that began.
  */
 #include "run.h"
 
@@ -48,9 +48,10 @@ static void copy(const struct kr_body *body, double *const from[3], double *cons
         memcpy(to[d], from[d], body->n * sizeof(double));
 }
 
-/* Motion that is stopped whenever the forces hold against it, supports at rest. */
+/* Damped motion, supports at rest, until it is nearly over. */
 static void relax(struct statics *s) {
     struct kr_body *body = s->run->body;
+    const double dt = KR_REST_STEP * s->run->safe_step;
     struct kr_progress progress = kr_progress_begin("relaxation", 0, 0);
     for (int d = 0; d < body->dim; d++)
         memset(body->v[d], 0, body->n * sizeof(double));
@@ -58,12 +59,12 @@ static void relax(struct statics *s) {
         double residual = kr_equilibrium_residual(s->q);
         if (residual < 0.01 || kr_interrupt_pending())
             break;
-        kr_rest_stop(s->q->rest);
+        kr_rest_damp(s->q->rest);
         for (int d = 0; d < body->dim; d++)
             for (size_t i = 0; i < body->n; i++)
                 if (s->q->rest->fixed[i] >> d & 1)
                     body->force[d][i] = 0;
-        kr_body_advance(body, s->run->dt, s->run->dt);
+        kr_body_advance(body, k ? dt : 0.5 * dt, dt);
         kr_progress_note(&progress, "  relaxation, step %d, residual %.1e", k, residual);
     }
     kr_progress_wipe(&progress);
