@@ -146,6 +146,22 @@ double kr_body_energy(struct kr_body *body) {
     return kr_body_sum(body->n, energy_of_node, body);
 }
 
+void kr_body_product(struct kr_body *body, double *const v[], double *const product[]) {
+    const struct kr_bonds *b = body->bonds;
+    struct kr_kernel_work work = work_of(body);
+    for (int d = 0; d < body->dim; d++) {
+        work.v[d] = v[d];
+        work.product[d] = product[d];
+    }
+#pragma omp parallel for schedule(static, 1)
+    for (int block = 0; block < b->n_blocks; block++) {
+        body->kernel->product(&work, b->block[block], b->block[block + 1]);
+        for (size_t slice = b->block[block]; slice < b->block[block + 1]; slice++)
+            if (body->flag[slice])
+                kr_exact_product(&work, slice);
+    }
+}
+
 void kr_body_advance(struct kr_body *body, double kick, double drift) {
     const double push = kick / body->bonds->material.density;
     for (int d = 0; d < body->dim; d++) {

@@ -38,6 +38,16 @@ void kr_body_force(struct kr_body *body, int may_break);
 /** Strain energy density of every node into body->energy; returns the total [J/m, in 3D J]. */
 double kr_body_energy(struct kr_body *body);
 
+/** Derivative of the internal force density at the displacements u in a direction; theory.md (8a):
+ *
+ *    product_i = d/dh f_i(u + h v) at h = 0 = (J v)_i ,    V_i J_ij = V_j J_ji
+ *
+ *  in   v        m, dim arrays of kr_bonds_padded
+ *  out  product  N/m^3, dim arrays of kr_bonds_padded, overwritten; not v
+ *  Bonds neither break nor heal. Threads: as kr_body_force.
+ */
+void kr_body_product(struct kr_body *body, double *const v[], double *const product[]);
+
 /** v += kick * force/rho, then u += drift * v, for all nodes; times in s; theory.md (12). */
 void kr_body_advance(struct kr_body *body, double kick, double drift);
 

@@ -71,6 +71,41 @@ void kr_exact_energy(const struct kr_kernel_work *work, size_t slice) {
     }
 }
 
+/* With the unit vector m along the stretched bond, of length L (1+s), the pull F changes along m by
+ * F'(s) m.v/L and turns with the bond by F (v - (m.v) m)/(L (1+s)). */
+static void pair_product(const struct kr_kernel_work *work, const struct kr_bond *bond, double s,
+                         double product[3]) {
+    const struct kr_bonds *b = work->bonds;
+    const struct kr_material *m = &b->material;
+    double c = kr_material_micromodulus(m, bond->length);
+    double volume = c * weight_of(b, bond) * b->volume[bond->j] / bond->length;
+    double v[3], unit[3], along = 0;
+    for (int d = 0; d < b->dim; d++) {
+        v[d] = work->v[d][bond->j] - work->v[d][bond->i];
+        unit[d] = (bond->xi[d] + work->u[d][bond->j] - work->u[d][bond->i]) /
+                  (bond->length * (1 + s));
+        along += unit[d] * v[d];
+    }
+    for (int d = 0; d < b->dim; d++)
+        product[d] = volume * (m->law->stiffness(s) * along * unit[d] +
+                               m->law->force(s) / (1 + s) * (v[d] - along * unit[d]));
+}
+
+void kr_exact_product(const struct kr_kernel_work *work, size_t slice) {
+    const struct kr_bonds *b = work->bonds;
+    struct kr_bond_walk walk = kr_bonds_walk(b, slice);
+    struct kr_bond bond;
+    double product[3];
+    for (int d = 0; d < b->dim; d++)
+        for (size_t i = slice * KR_LANES; i < slice * KR_LANES + KR_LANES; i++)
+            work->product[d][i] = 0;
+    while (kr_bonds_next(b, &walk, &bond)) {
+        pair_product(work, &bond, kr_exact_stretch(b, &bond, work->u), product);
+        for (int d = 0; d < b->dim; d++)
+            work->product[d][bond.i] += product[d];
+    }
+}
+
 void kr_exact_break(struct kr_bonds *b, const struct kr_kernel_work *work, size_t slice,
                     struct kr_broken_list *list) {
     struct kr_bond_walk walk = kr_bonds_walk(b, slice);

@@ -35,6 +35,9 @@ void kr_exact_force(const struct kr_kernel_work *work, size_t slice);
 /** Strain energy density [J/m^3] of the nodes of one slice; theory.md (8). */
 void kr_exact_energy(const struct kr_kernel_work *work, size_t slice);
 
+/** Derivative of the force density in the direction v [N/m^3]; theory.md (8a). */
+void kr_exact_product(const struct kr_kernel_work *work, size_t slice);
+
 /** Break the bonds of one slice that are past the critical stretch, but for those of no-fail nodes:
  *  clears this end's bit and adds (i, j) to the list. The other end is its own slice's business.
  *

@@ -22,6 +22,11 @@ static double store_at(const struct kr_law *law, double e) {
     return law->energy(s) / (e * e);
 }
 
+static double tangent_at(const struct kr_law *law, double e) {
+    double s = e / (1 + sqrt(1 + e));
+    return (law->stiffness(s) - law->force(s) / (1 + s)) / ((1 + s) * (1 + s));
+}
+
 /* Value of the interpolated function at a Chebyshev root; roots near 0 are shifted by symmetry: the
  * mean of two close points has an error of order SMALL^2. */
 static double sample(double (*at)(const struct kr_law *, double), const struct kr_law *law,
@@ -96,5 +101,6 @@ struct kr_fit kr_fit_make(const struct kr_material *material) {
     struct kr_fit fit = {.range = fmin(fmax(1.001 * critical, 0.02), 0.5)};
     fit.pull = fit_one(pull_at, material->law, fit.range);
     fit.store = fit_one(store_at, material->law, fit.range);
+    fit.tangent = interpolate(tangent_at, material->law, fit.range, fit.pull.terms);
     return fit;
 }

@@ -5,10 +5,11 @@
  * With e = (|xi+eta|^2 - |xi|^2)/|xi|^2, which needs no square root, the stretch is
  * s = sqrt(1+e) - 1, and the loop needs
  *
- *    pull(e)  = force(s) / ((1 + s) e)     so that  f = c w V pull e (xi + eta)/|xi|
- *    store(e) = energy(s) / e^2            so that  w = c |xi| store e^2
+ *    pull(e)    = force(s) / ((1 + s) e)   so that  f = c w V pull e (xi + eta)/|xi|
+ *    store(e)   = energy(s) / e^2          so that  w = c |xi| store e^2
+ *    tangent(e) = 2 d(pull e)/de = (force'(s) - force(s)/(1 + s)) / (1 + s)^2
  *
- * Both are smooth for |e| <= range, where Chebyshev interpolation converges to rounding.
+ * All are smooth for |e| <= range, where Chebyshev interpolation converges to rounding.
  */
 #ifndef KR_FIT_H
 #define KR_FIT_H
@@ -23,10 +24,10 @@ struct kr_polynomial {
     double coefficient[KR_FIT_TERMS];
 };
 
-/** The two polynomials of a material and where they hold: -range <= e <= range. */
+/** The polynomials of a material and where they hold: -range <= e <= range. */
 struct kr_fit {
     double range;
-    struct kr_polynomial pull, store;
+    struct kr_polynomial pull, store, tangent; /* tangent has as many terms as pull */
 };
 
 /** Fit a material's law to a relative error below 1e-14 where KR_FIT_TERMS terms allow it. `range`

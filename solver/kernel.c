@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * The loop over all bonds: force and strain energy of every node. This file is compiled once for
+ * The loop over all bonds: force and strain energy of every node, and the
+ * force's derivative in a direction. This file is compiled once for
  * each kind of processor; the width of a vector follows from the target.
  *
  *    f_i = sum_j c w_ij V_j (s/|xi+eta|) (xi+eta)        theory.md (7); plates paper eq. 11
  *    W_i = 1/2 sum_j w_ij V_j c |xi| energy(s)           theory.md (8)
+ *    (J v)_i = sum_j c w_ij V_j/|xi| (pull e v_ij + tangent (xi+eta).v_ij/|xi|^2 (xi+eta))   (8a)
  *    w_ij = (lambda_i + lambda_j)/2 phi_ij,  c = c(|xi|)  theory.md (6e)
  *
  * without square root or division, by q = eta . (2 xi + eta) = |xi+eta|^2 - |xi|^2, e = q/|xi|^2 and
@@ -12,6 +14,7 @@
  *
  *   xi    bond vector at rest [m]        eta   difference of displacements [m]
  *   e     see above                      keep  all bits set in the lanes whose bond lives
+ *   v_ij  difference of directions, v_j - v_i
  *
  * Damage costs nothing here: the loop only notes that some bond of a slice left the range, and
  * exact.c does that slice again, bond by bond. The readable form of this loop is there, too.
@@ -29,6 +32,9 @@ enum { WIDTH = 2 };
 #endif
 
 enum { ALL = (1 << KR_LANES) - 1 };
+
+/* What a loop sums. Always a constant, so that what is not asked for is not compiled. */
+enum what { FORCE, ENERGY, PRODUCT };
 
 typedef double vector __attribute__((vector_size(WIDTH * 8)));
 typedef double vector_anywhere __attribute__((vector_size(WIDTH * 8), aligned(8), may_alias));
@@ -90,15 +96,19 @@ INLINE vector polynomial(const double *coefficient, int terms, vector e) {
 /* A slice's lanes while its rows are summed. */
 struct lanes {
     size_t node;         /* of the first lane */
-    vector u[3], x[3], factor;
-    vector sum[3];       /* force in `force`; sum[0] is the energy in `energy` */
+    vector u[3], x[3], v[3], factor;
+    vector sum[3];       /* force or product; sum[0] is the energy */
     mask left;           /* sign bits of lanes in which e left the range */
 };
 
-/* Add a row of bonds: `scale` is all of c w V/|xi| but the lambdas (force), or c w V |xi|. `whole`:
- * all lanes live, as in most rows, and `keep` is not looked at. */
+INLINE const struct kr_polynomial *polynomial_for(const struct kr_fit *fit, enum what what) {
+    return what == ENERGY ? &fit->store : &fit->pull;
+}
+
+/* Add a row of bonds: `scale` is all of c w V/|xi| but the lambdas (force, product), or c w V |xi|.
+ * `whole`: all lanes live, as in most rows, and `keep` is not looked at. */
 INLINE void add_row(struct lanes *l, const struct kr_kernel_work *work, int dim, int terms,
-                    int energy, int whole, size_t j, const vector *xi, vector inverse_square,
+                    enum what what, int whole, size_t j, const vector *xi, vector inverse_square,
                     vector scale, mask keep) {
     const struct kr_bonds *b = work->bonds;
     vector eta[3], stretched[3], q = {0};
@@ -110,29 +120,40 @@ INLINE void add_row(struct lanes *l, const struct kr_kernel_work *work, int dim,
     vector e = whole ? q * inverse_square : only(q * inverse_square, keep);
     l->left |= (mask)(b->flag_above - e) | (mask)(e - b->flag_below);
     vector both = scale * (l->factor + load(b->factor + j));
-    const double *coefficient = energy ? b->fit.store.coefficient : b->fit.pull.coefficient;
-    vector pull = polynomial(coefficient, terms, e) * (energy ? e * e : e) * both;
-    if (energy)
-        l->sum[0] += pull;
-    for (int d = 0; d < dim && !energy; d++)
-        l->sum[d] += pull * stretched[d];
+    vector pull = polynomial(polynomial_for(&b->fit, what)->coefficient, terms, e) * both * e;
+    if (what == ENERGY)
+        l->sum[0] += pull * e;
+    if (what == FORCE)
+        for (int d = 0; d < dim; d++)
+            l->sum[d] += pull * stretched[d];
+    if (what == PRODUCT) {
+        vector v[3], along = {0};
+        for (int d = 0; d < dim; d++) {
+            v[d] = load(work->v[d] + j) - l->v[d];
+            along += v[d] * stretched[d];
+        }
+        vector tangent = polynomial(b->fit.tangent.coefficient, terms, e) * both * inverse_square;
+        tangent = whole ? tangent * along : only(tangent * along, keep);
+        for (int d = 0; d < dim; d++)
+            l->sum[d] += pull * v[d] + tangent * stretched[d];
+    }
 }
 
 INLINE void sum_lattice(struct lanes *l, const struct kr_kernel_work *work, int dim, int terms,
-                        int energy, size_t slice, int part) {
+                        enum what what, size_t slice, int part) {
     const struct kr_bonds *b = work->bonds;
     for (size_t r = b->first[slice]; r < b->first[slice + 1]; r++) {
         const struct kr_bond_kind *kind = &b->kinds[b->kind[r]];
         const size_t j = l->node + (size_t)(ptrdiff_t)b->offset[r];
         const vector inverse_square = same(kind->inverse_square);
-        const vector scale = same(energy ? kind->store : kind->pull);
+        const vector scale = same(what == ENERGY ? kind->store : kind->pull);
         vector xi[3];
         for (int d = 0; d < dim; d++)
             xi[d] = same(kind->xi[d]);
         if (b->living[r] == ALL)
-            add_row(l, work, dim, terms, energy, 1, j, xi, inverse_square, scale, (mask){0});
+            add_row(l, work, dim, terms, what, 1, j, xi, inverse_square, scale, (mask){0});
         else
-            add_row(l, work, dim, terms, energy, 0, j, xi, inverse_square, scale,
+            add_row(l, work, dim, terms, what, 0, j, xi, inverse_square, scale,
                     mask_of((unsigned)b->living[r] >> (part * WIDTH)));
     }
 }
@@ -144,11 +165,11 @@ INLINE vector cone(vector length, double horizon) {
 }
 
 INLINE void sum_general(struct lanes *l, const struct kr_kernel_work *work, int dim, int terms,
-                        int conical, int energy, size_t slice, int part) {
+                        int conical, enum what what, size_t slice, int part) {
     const struct kr_bonds *b = work->bonds;
     const float *inverse = b->inverse + KR_LANES * b->first_inverse[slice] + part * WIDTH;
     const float *weight = b->weight + KR_LANES * b->first_weight[slice] + part * WIDTH;
-    const double c = b->material.micromodulus * (energy ? 0.25 : 0.5);
+    const double c = b->material.micromodulus * (what == ENERGY ? 0.25 : 0.5);
     for (size_t r = b->first[slice]; r < b->first[slice + 1]; r++) {
         size_t j = l->node + (size_t)(ptrdiff_t)b->offset[r];
         vector xi[3], square = {0};
@@ -159,7 +180,7 @@ INLINE void sum_general(struct lanes *l, const struct kr_kernel_work *work, int 
         /* One Newton step takes 1/|xi| from the 24 bits stored to 48. */
         vector root = load_floats(inverse);
         root = root * (1.5 - 0.5 * square * root * root);
-        vector scale = c * load(b->volume + j) * (energy ? square * root : root);
+        vector scale = c * load(b->volume + j) * (what == ENERGY ? square * root : root);
         if (conical)
             scale *= cone(square * root, b->material.horizon);
         if (b->kind[r]) {
@@ -168,15 +189,16 @@ INLINE void sum_general(struct lanes *l, const struct kr_kernel_work *work, int 
         }
         inverse += KR_LANES;
         if (b->living[r] == ALL)
-            add_row(l, work, dim, terms, energy, 1, j, xi, root * root, scale, (mask){0});
+            add_row(l, work, dim, terms, what, 1, j, xi, root * root, scale, (mask){0});
         else
-            add_row(l, work, dim, terms, energy, 0, j, xi, root * root, scale,
+            add_row(l, work, dim, terms, what, 0, j, xi, root * root, scale,
                     mask_of((unsigned)b->living[r] >> (part * WIDTH)));
     }
 }
 
 /* One slice, WIDTH lanes at a time. */
-INLINE void do_slice(const struct kr_kernel_work *work, int dim, int terms, int conical, int energy,
+INLINE void do_slice(const struct kr_kernel_work *work, int dim, int terms, int conical,
+                     enum what what,
                      size_t slice) {
     const struct kr_bonds *b = work->bonds;
     unsigned char flag = 0;
@@ -185,57 +207,63 @@ INLINE void do_slice(const struct kr_kernel_work *work, int dim, int terms, int 
         for (int d = 0; d < dim; d++) {
             l.u[d] = load(work->u[d] + l.node);
             l.x[d] = load(b->x[d] + l.node);
+            if (what == PRODUCT)
+                l.v[d] = load(work->v[d] + l.node);
         }
         l.factor = load(b->factor + l.node);
         if (b->lattice[slice])
-            sum_lattice(&l, work, dim, terms, energy, slice, part);
+            sum_lattice(&l, work, dim, terms, what, slice, part);
         else
-            sum_general(&l, work, dim, terms, conical, energy, slice, part);
-        if (energy)
+            sum_general(&l, work, dim, terms, conical, what, slice, part);
+        if (what == ENERGY)
             store(work->energy + l.node, l.sum[0]);
-        for (int d = 0; d < dim && !energy; d++)
-            store(work->force[d] + l.node, l.sum[d]);
+        for (int d = 0; d < dim && what != ENERGY; d++)
+            store((what == FORCE ? work->force : work->product)[d] + l.node, l.sum[d]);
         flag |= (unsigned char)any_sign(l.left);
     }
     work->flag[slice] = flag;
 }
 
 /* The common lengths of the polynomials are constants, so that their loops unroll. */
-INLINE void do_slices(const struct kr_kernel_work *work, int dim, int conical, int energy,
+INLINE void do_slices(const struct kr_kernel_work *work, int dim, int conical, enum what what,
                       size_t begin, size_t end) {
-    const struct kr_fit *fit = &work->bonds->fit;
-    const int terms = energy ? fit->store.terms : fit->pull.terms;
+    const int terms = polynomial_for(&work->bonds->fit, what)->terms;
     if (terms == 8)
         for (size_t slice = begin; slice < end; slice++)
-            do_slice(work, dim, 8, conical, energy, slice);
+            do_slice(work, dim, 8, conical, what, slice);
     else if (terms == 10)
         for (size_t slice = begin; slice < end; slice++)
-            do_slice(work, dim, 10, conical, energy, slice);
+            do_slice(work, dim, 10, conical, what, slice);
     else
         for (size_t slice = begin; slice < end; slice++)
-            do_slice(work, dim, terms, conical, energy, slice);
+            do_slice(work, dim, terms, conical, what, slice);
 }
 
 /* So are the dimension and the profile of the micromodulus. */
-INLINE void do_body(const struct kr_kernel_work *work, int energy, size_t begin, size_t end) {
+INLINE void do_body(const struct kr_kernel_work *work, enum what what, size_t begin, size_t end) {
     const int conical = work->bonds->material.profile == KR_CONICAL;
     if (work->bonds->dim == 2 && !conical)
-        do_slices(work, 2, 0, energy, begin, end);
+        do_slices(work, 2, 0, what, begin, end);
     else if (work->bonds->dim == 2)
-        do_slices(work, 2, 1, energy, begin, end);
+        do_slices(work, 2, 1, what, begin, end);
     else if (!conical)
-        do_slices(work, 3, 0, energy, begin, end);
+        do_slices(work, 3, 0, what, begin, end);
     else
-        do_slices(work, 3, 1, energy, begin, end);
+        do_slices(work, 3, 1, what, begin, end);
 }
 
 static void force(const struct kr_kernel_work *work, size_t begin, size_t end) {
-    do_body(work, 0, begin, end);
+    do_body(work, FORCE, begin, end);
 }
 
 static void energy(const struct kr_kernel_work *work, size_t begin, size_t end) {
-    do_body(work, 1, begin, end);
+    do_body(work, ENERGY, begin, end);
+}
+
+static void product(const struct kr_kernel_work *work, size_t begin, size_t end) {
+    do_body(work, PRODUCT, begin, end);
 }
 
 extern const struct kr_kernel KR_KERNEL;
-const struct kr_kernel KR_KERNEL = {.name = KR_KERNEL_NAME, .force = force, .energy = energy};
+const struct kr_kernel KR_KERNEL = {
+    .name = KR_KERNEL_NAME, .force = force, .energy = energy, .product = product};

@@ -13,16 +13,19 @@ struct kr_kernel_work {
     const double *u[3];     /* m */
     double *force[3];       /* N/m^3, written by `force` */
     double *energy;         /* J/m^3, written by `energy` */
+    const double *v[3];     /* m, the direction of `product` */
+    double *product[3];     /* N/m^3, written by `product` */
     unsigned char *flag;    /* (n_slices) set to 1 where some living bond's e is out of the range of
                                the polynomials (past the critical stretch, too): what was written
                                for that slice is worthless and the exact loop must do it again */
 };
 
-/** One build of the loop. Both functions do slices begin to end - 1. */
+/** One build of the loop. The functions do slices begin to end - 1. */
 struct kr_kernel {
     const char *name;
     void (*force)(const struct kr_kernel_work *work, size_t begin, size_t end);
     void (*energy)(const struct kr_kernel_work *work, size_t begin, size_t end);
+    void (*product)(const struct kr_kernel_work *work, size_t begin, size_t end);
 };
 
 /** The best build for this processor; the environment's KIRSCH_KERNEL (baseline, avx2, avx512) picks

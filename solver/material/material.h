@@ -19,6 +19,7 @@ struct kr_law {
     const char *text; /* one sentence for people */
     double (*force)(double s);
     double (*energy)(double s);
+    double (*stiffness)(double s); /* force' */
 };
 
 /** All laws, and how many. */

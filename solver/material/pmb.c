@@ -16,9 +16,15 @@ static double energy(double s) {
     return 0.5 * s * s;
 }
 
+static double stiffness(double s) {
+    (void)s;
+    return 1;
+}
+
 const struct kr_law kr_law_pmb = {
     .name = "pmb",
     .text = "prototype microelastic brittle: linear in the stretch until it breaks",
     .force = force,
     .energy = energy,
+    .stiffness = stiffness,
 };

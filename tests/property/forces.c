@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
  * What every law must hold on every node set: no force at rest, under translation or rotation; no
- * force or moment on the whole; force = - gradient of the energy. On a plate with a hole among
+ * force or moment on the whole; force = - gradient of the energy; the product is the force's
+ * derivative and symmetric. On a plate with a hole among
  * unequal cells, random or corrected surface factors, and a cut; on a block of cubes, half of them
  * unequal.
  */
 #include "test.h"
 
+#include "base/memory.h"
 #include "plates.h"
 #include "precrack.h"
 
@@ -184,12 +186,92 @@ static void test_force_is_the_energys_gradient(void **state) {
     for_every_subject(check_gradient);
 }
 
+/* Two directions and what comes of them. */
+struct directions {
+    double *v[2][3], *product[2][3];
+};
+
+static struct directions directions_create(struct subject *s) {
+    struct directions all;
+    uint64_t seed = 5;
+    for (int k = 0; k < 2; k++)
+        for (int d = 0; d < s->body->dim; d++) {
+            all.v[k][d] = kr_bonds_padded(s->body->n);
+            all.product[k][d] = kr_bonds_padded(s->body->n);
+            for (size_t i = 0; i < s->body->n; i++)
+                all.v[k][d][i] = SPACING * kr_random(&seed, -1, 1);
+        }
+    for (int k = 0; k < 2; k++)
+        kr_body_product(s->body, all.v[k], all.product[k]);
+    return all;
+}
+
+static void directions_free(struct directions *all, int dim) {
+    for (int k = 0; k < 2; k++)
+        for (int d = 0; d < dim; d++) {
+            kr_bonds_padded_free(all->v[k][d]);
+            kr_bonds_padded_free(all->product[k][d]);
+        }
+}
+
+/* Adds h v to the displacements and returns the forces there in arrays of their own. */
+static void force_moved(struct subject *s, double *const v[3], double h, double *force[3]) {
+    for (int d = 0; d < s->body->dim; d++)
+        for (size_t i = 0; i < s->body->n; i++)
+            s->body->u[d][i] += h * v[d][i];
+    kr_body_force(s->body, 0);
+    for (int d = 0; d < s->body->dim; d++) {
+        force[d] = KR_NEW(double, s->body->n);
+        memcpy(force[d], s->body->force[d], s->body->n * sizeof(double));
+    }
+}
+
+/* Central differences over h v, |v| <= dx: h = 1e-5 leaves h^2 = 1e-10 of the third derivative, and
+ * of rounding the forces' 1e-15 (of strains 1e-3) over h: 1e-13. Tension and pressure of 1e-2 on
+ * average, so that the part which turns with the bonds counts. */
+static void check_product(struct subject *s) {
+    const double h = 1e-5;
+    double *above[3], *below[3], worst = 0, most = 0, symmetric[2] = {0};
+    for (int sign = -1; sign <= 1; sign += 2) {
+        kr_plate_shake(s->body, 1e-3 * SPACING, 23);
+        for (size_t i = 0; i < s->body->n; i++)
+            s->body->u[0][i] += sign * 1e-2 * s->bonds->x[0][i];
+        struct directions all = directions_create(s);
+        force_moved(s, all.v[0], h, above);
+        force_moved(s, all.v[0], -2 * h, below);
+        for (int d = 0; d < s->body->dim; d++) {
+            for (size_t i = 0; i < s->body->n; i++) {
+                double quotient = (above[d][i] - below[d][i]) / (2 * h);
+                worst = fmax(worst, fabs(quotient - all.product[0][d][i]));
+                most = fmax(most, fabs(quotient));
+                for (int k = 0; k < 2; k++)
+                    symmetric[k] +=
+                        s->bonds->volume[i] * all.v[k][d][i] * all.product[1 - k][d][i];
+            }
+            kr_free(above[d]);
+            kr_free(below[d]);
+        }
+        directions_free(&all, s->body->dim);
+    }
+    kr_figure("%s: product off the force's difference quotient by %.1e, asymmetry %.1e", s->name,
+              worst / most, symmetric[0] / symmetric[1] - 1);
+    kr_check_near(worst / most, 0, 1e-8);
+    /* Two random vectors: of n products that cancel to their root, 2^-48 of each. */
+    kr_check_near(symmetric[0] / symmetric[1], 1, 1e-11);
+}
+
+static void test_product_is_the_forces_derivative(void **state) {
+    (void)state;
+    for_every_subject(check_product);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_no_force_at_rest_or_moved),
         cmocka_unit_test(test_no_force_under_rotation),
         cmocka_unit_test(test_momentum_is_kept),
         cmocka_unit_test(test_force_is_the_energys_gradient),
+        cmocka_unit_test(test_product_is_the_forces_derivative),
     };
     kr_run_tests(tests);
 }

@@ -39,27 +39,41 @@ static double difference(size_t n, const double *a, const double *b) {
     return worst / most;
 }
 
-/* Both loops at the body's displacements; the exact one into arrays of its own. */
-static double compare(struct kr_body *body) {
-    struct kr_kernel_work work = {.bonds = body->bonds};
-    double worst = 0;
-    work.energy = kr_bonds_padded(body->n);
+/* The exact loop at the body's displacements, into arrays of its own; v is some direction. */
+static struct kr_kernel_work do_exactly(const struct kr_body *body) {
+    struct kr_kernel_work work = {.bonds = body->bonds, .energy = kr_bonds_padded(body->n)};
     for (int d = 0; d < body->dim; d++) {
         work.u[d] = body->u[d];
+        work.v[d] = body->v[d];
         work.force[d] = kr_bonds_padded(body->n);
+        work.product[d] = kr_bonds_padded(body->n);
     }
     for (size_t slice = 0; slice < body->bonds->n_slices; slice++) {
         kr_exact_force(&work, slice);
         kr_exact_energy(&work, slice);
+        kr_exact_product(&work, slice);
     }
+    return work;
+}
+
+/* Largest relative difference of both loops at the body's displacements. */
+static double compare(struct kr_body *body) {
+    struct kr_kernel_work exact = do_exactly(body);
+    double *product[3] = {0}, worst = 0;
+    for (int d = 0; d < body->dim; d++)
+        product[d] = kr_bonds_padded(body->n);
     kr_body_force(body, 0);
     kr_body_energy(body);
-    worst = difference(body->n, body->energy, work.energy);
+    kr_body_product(body, body->v, product);
+    worst = difference(body->n, body->energy, exact.energy);
+    kr_bonds_padded_free(exact.energy);
     for (int d = 0; d < body->dim; d++) {
-        worst = fmax(worst, difference(body->n, body->force[d], work.force[d]));
-        kr_bonds_padded_free(work.force[d]);
+        worst = fmax(worst, difference(body->n, body->force[d], exact.force[d]));
+        worst = fmax(worst, difference(body->n, product[d], exact.product[d]));
+        kr_bonds_padded_free(product[d]);
+        kr_bonds_padded_free(exact.force[d]);
+        kr_bonds_padded_free(exact.product[d]);
     }
-    kr_bonds_padded_free(work.energy);
     return worst;
 }
 
@@ -92,6 +106,9 @@ static void check_build(const char *build, const struct kr_law *law, int dim, in
     if (dim == 2)
         kr_precrack_cut_line(bonds, from, to, 1);
     kr_plate_shake(body, 1e-3 * SPACING, 4);
+    for (int d = 0; d < dim; d++) /* some direction for the product */
+        for (size_t i = 0; i < body->n; i++)
+            body->v[d][i] = SPACING * sin((double)(i * 3 + (size_t)d));
     double worst = compare(body);
     assert_int_equal(flagged(body), 0);
     body->u[0][body->n / 2] += 0.03 * SPACING; /* past s0 and past the range on the other side */

@@ -22,7 +22,7 @@ static double stretch(double e) {
 static void check_fit(const struct kr_law *law, double s0) {
     struct kr_material m = {.law = law, .critical_stretch = s0};
     struct kr_fit fit = kr_fit_make(&m);
-    double pull = 0, store = 0;
+    double pull = 0, store = 0, tangent = 0;
     assert_true(fit.range >= 0.02 && fit.range <= 0.5);
     if (isfinite(s0) && s0 * (2 + s0) < 0.49)
         assert_true(fit.range > s0 * (2 + s0)); /* bonds are still inside when they break */
@@ -30,12 +30,17 @@ static void check_fit(const struct kr_law *law, double s0) {
         double e = fit.range * (k + 0.113) / 1000.2, s = stretch(e);
         pull = fmax(pull, fabs(value(&fit.pull, e) * (1 + s) * e / law->force(s) - 1));
         store = fmax(store, fabs(value(&fit.store, e) * e * e / law->energy(s) - 1));
+        double slope = (law->stiffness(s) - law->force(s) / (1 + s)) / ((1 + s) * (1 + s));
+        tangent = fmax(tangent, fabs(value(&fit.tangent, e) - slope));
     }
-    kr_figure("%s s0 %-6.4g: range %.3f, %d and %d terms, pull off by %.1e, energy by %.1e",
-              law->name, s0, fit.range, fit.pull.terms, fit.store.terms, pull, store);
+    kr_figure("%s s0 %-6.4g: range %.3f, %d and %d terms, pull off by %.1e, energy by %.1e, "
+              "tangent by %.1e",
+              law->name, s0, fit.range, fit.pull.terms, fit.store.terms, pull, store, tangent);
     /* A range of 0.5 needs a root of 3.7^-n: 24 terms for rounding; sums of them lose some bits. */
     kr_check_near(pull, 0, 1e-13);
     kr_check_near(store, 0, 1e-13);
+    /* A derivative's series ends some terms later than that of the function: one digit. */
+    kr_check_near(tangent, 0, 1e-12);
 }
 
 static void test_fit_is_the_law(void **state) {

@@ -75,8 +75,10 @@ static void test_every_law_is_one(void **state) {
         kr_check_near(law->force(0), 0, 0);
         kr_check_near(law->energy(0), 0, 0);
         kr_check_near(law->force(1e-8) / 1e-8, 1, 1e-6);
-        for (double s = -0.0203; s < 0.03; s += 0.0037)
+        for (double s = -0.0203; s < 0.03; s += 0.0037) {
             kr_check_near((law->energy(s + h) - law->energy(s - h)) / (2 * h), law->force(s), 1e-9);
+            kr_check_near((law->force(s + h) - law->force(s - h)) / (2 * h), law->stiffness(s), 1e-9);
+        }
     }
     assert_null(kr_law_named("steel"));
 }
