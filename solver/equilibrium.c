@@ -4,7 +4,7 @@
  *
  *    A p = r ,   r_i = V_i f_i(u) ,   A = -dr/du ,   u <- u + a p
  *
- * with A p as a quotient of forces, one pass over the bonds each, and coarse.h as the preconditioner. A body
+ * with A p one pass over the bonds each (kr_body_product), and coarse.h as the preconditioner. A body
  * of small strains is nearly linear, so two or three steps do. Prescribed components move in the first step,
  * and the others with them: never is a row of bonds stretched by a whole load step.
  */
@@ -23,7 +23,7 @@ enum { MOST_STEPS = 40, MOST_PRODUCTS = 600, MOST_HALVINGS = 12 };
  * wave of a body of 1000 horizons is 100 times stiffer. */
 static const double SHIFT = 1e-9;
 
-enum { SOLUTION, REST, PRECONDITIONED, DIRECTION, PRODUCT, MOVED, VECTORS };
+enum { SOLUTION, REST, PRECONDITIONED, DIRECTION, PRODUCT, VECTORS };
 
 struct kr_equilibrium *kr_equilibrium_create(struct kr_body *body) {
     struct kr_equilibrium *q = KR_NEW(struct kr_equilibrium, 1);
@@ -88,33 +88,16 @@ double kr_equilibrium_residual(struct kr_equilibrium *q) {
 
 /* ---- the linear problem ---- */
 
-/* y = A v + SHIFT D v on free components, 0 on the others; body->force is that at body->u. The step of
- * the quotient moves no node by more than 1e-6 horizons: curvature then adds as little, and rounding of
- * the force, 1e-16 of strains of 1e-2, stays below 1e-6 for waves as long as 100 horizons. */
+/* y = A v + SHIFT D v on free components, 0 on the others. */
 static void multiply(struct kr_equilibrium *q, const struct kr_coarse *coarse, double *const v[3],
                      double *const y[3]) {
     struct kr_body *body = q->body;
     const double *volume = body->bonds->volume;
-    double most = largest_of(body, v);
-    double h = most > 0 ? 1e-6 * body->bonds->material.horizon / most : 1;
-    double *u[3], *force[3];
-    for (int d = 0; d < body->dim; d++) {
-        u[d] = body->u[d];
-        force[d] = body->force[d];
-        body->u[d] = q->room[MOVED][d];
-        body->force[d] = y[d];
+    kr_body_product(body, v, y);
+    for (int d = 0; d < body->dim; d++)
 #pragma omp parallel for schedule(static)
         for (size_t i = 0; i < body->n; i++)
-            body->u[d][i] = u[d][i] + h * v[d][i];
-    }
-    kr_body_force(body, 0);
-    for (int d = 0; d < body->dim; d++) {
-        body->u[d] = u[d];
-        body->force[d] = force[d];
-#pragma omp parallel for schedule(static)
-        for (size_t i = 0; i < body->n; i++)
-            y[d][i] = volume[i] * (force[d][i] - q->rest->load[d][i] - y[d][i]) / h;
-    }
+            y[d][i] *= -volume[i];
     kr_coarse_add_diagonal(coarse, SHIFT, v, y);
     for (int d = 0; d < body->dim; d++)
 #pragma omp parallel for schedule(static)

@@ -26,7 +26,7 @@ struct kr_equilibrium {
     } end;
     int steps, products; /* of Newton; products of the stiffness with a vector, all together */
 
-    double *room[6][3]; /* vectors of the solver */
+    double *room[5][3]; /* vectors of the solver */
 };
 
 /** Room for the vectors; nothing is prescribed or loaded yet. Does not own the body. */
