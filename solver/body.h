@@ -51,6 +51,13 @@ void kr_body_product(struct kr_body *body, double *const v[], double *const prod
 /** v += kick * force/rho, then u += drift * v, for all nodes; times in s; theory.md (12). */
 void kr_body_advance(struct kr_body *body, double kick, double drift);
 
+/** force -= damping rho v, damping [1/s]; theory.md (27). */
+void kr_body_damp(struct kr_body *body, double damping);
+
+/** Whether a living bond that may break is past the critical stretch, as of the last kr_body_force
+ *  that broke none. */
+int kr_body_overstretched(const struct kr_body *body);
+
 /** Sum of term(context, i) over all nodes, by a fixed tree: same bits for any number of threads. */
 double kr_body_sum(size_t n, double (*term)(const void *context, size_t i), const void *context);
 
