@@ -47,15 +47,16 @@ static double distance(const struct segment *s, const double *x) {
     return hypot(off[0] - t * along[0], off[1] - t * along[1]);
 }
 
-static int is_in_box(const double *x, const double *lower, const double *upper, double margin) {
-    for (int d = 0; d < 2; d++)
+static int is_in_box(int dim, const double *x, const double *lower, const double *upper,
+                     double margin) {
+    for (int d = 0; d < dim; d++)
         if (x[d] < lower[d] - margin || x[d] > upper[d] + margin)
             return 0;
     return 1;
 }
 
 static int is_near(const struct curve *curve, const double *x, double within) {
-    if (!is_in_box(x, curve->lower, curve->upper, within))
+    if (!is_in_box(2, x, curve->lower, curve->upper, within))
         return 0;
     for (size_t k = 0; k < curve->count; k++)
         if (distance(&curve->edge[k], x) <= within)
@@ -93,7 +94,8 @@ static void make_set(struct kr_deck *deck, const struct kr_case_set *set,
     size_t count = 0;
     for (size_t i = 0; i < nodes->n; i++) {
         const double *x = nodes->position + (size_t)nodes->dim * i;
-        if (group ? is_near(&curve, x, set->within) : is_in_box(x, set->lower, set->upper, 0))
+        if (group ? is_near(&curve, x, set->within)
+                  : is_in_box(nodes->dim, x, set->lower, set->upper, 0))
             node[count++] = (int64_t)i;
     }
     if (!count)

@@ -134,8 +134,12 @@ static struct kr_nodes *read_nodes(const struct wish *wish, struct kr_deck *deck
     struct kr_mesh *mesh;
     import.path = wish->n_files ? import.path : own;
     struct kr_nodes *nodes = kr_import(&import, &mesh);
-    if (nodes->dim == 3 && c->model <= KR_PLANE_STRAIN)
-        kr_deck_fault(deck, &c->model, "%s is a mesh of solids, and this model is for plates",
+    if (nodes->dim != kr_case_dim(c))
+        kr_deck_fault(deck, &c->model,
+                      nodes->dim == 3 ? "%s is a mesh of solids, and this model is for plates; take "
+                                        "solid"
+                                      : "%s is a mesh of a plate, and the model is solid; take "
+                                        "plane-stress or plane-strain",
                       import.path);
     c->partial_volume = kr_weights_choose(deck, c, nodes);
     kr_convert_sets(deck, c, mesh, nodes);
@@ -172,6 +176,7 @@ static void correct(const struct kr_case *c, struct kr_nodes *nodes) {
     struct kr_material material = kr_material_of(c);
     made->horizon = c->horizon;
     kr_case_word(KR_MODEL_WORDS, c->model, made->model);
+    kr_case_word(KR_MICROMODULUS_WORDS, c->micromodulus, made->micromodulus);
     kr_case_word(KR_PARTIAL_VOLUME_WORDS, c->partial_volume, made->partial_volume);
     kr_case_word(KR_SURFACE_WORDS, c->surface_correction, made->surface_correction);
     kr_case_word(KR_DEFORMATION_WORDS, c->surface_deformation, made->deformation);

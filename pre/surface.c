@@ -39,7 +39,7 @@ static double bond_energy(const struct kr_material *m, const double xi[2], const
         square += xi[d] * xi[d];
     }
     double e = q / square;
-    return m->micromodulus * sqrt(square) * m->law->energy(e / (1 + sqrt(1 + e)));
+    return kr_material_micromodulus(m, sqrt(square)) * sqrt(square) * m->law->energy(e / (1 + sqrt(1 + e)));
 }
 
 double kr_surface_reference(const struct kr_material *m, int partial_volume, int deformation) {

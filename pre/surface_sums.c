@@ -31,7 +31,9 @@ static double pull_along(const struct kr_material *m, int dim, const double *xi,
     for (int d = 0; d < dim; d++)
         square += xi[d] * xi[d];
     double e = STRAIN * (2 + STRAIN) * xi[axis] * xi[axis] / square;
-    return m->micromodulus * m->law->force(e / (1 + sqrt(1 + e))) * fabs(xi[axis]) / sqrt(square);
+    double length = sqrt(square);
+    return kr_material_micromodulus(m, length) * m->law->force(e / (1 + sqrt(1 + e))) *
+           fabs(xi[axis]) / length;
 }
 
 double kr_surface_full_volume(int dim, double horizon) {

@@ -35,7 +35,7 @@ void kr_body_free(struct kr_body *body);
  */
 void kr_body_force(struct kr_body *body, int may_break);
 
-/** Strain energy density of every node into body->energy; returns the total [J/m in 2D]. */
+/** Strain energy density of every node into body->energy; returns the total [J/m, in 3D J]. */
 double kr_body_energy(struct kr_body *body);
 
 /** Derivative of the internal force density at the displacements u in a direction; theory.md (8a):

@@ -40,8 +40,8 @@ struct kr_boundary {
 
 /* ---- from the deck ---- */
 
-static int is_given(const struct kr_deck_formula formula[2]) {
-    return formula[0].text || formula[1].text || formula[0].is_free || formula[1].is_free;
+static int is_given(const struct kr_deck_formula formula[3]) {
+    return formula[0].text || formula[0].is_free;
 }
 
 static const struct kr_deck_formula *formulas_of(const struct kr_case_load *from,
@@ -89,9 +89,9 @@ void kr_boundary_check(struct kr_deck *deck, const struct kr_case *c,
         const struct kr_set *set = set_named(deck, &load[k].set, nodes);
         if (set && set->measure <= 0 && is_given(load[k].traction))
             kr_deck_fault(deck, &load[k].set,
-                          "set '%s' belongs to no boundary, so a traction has no length to act on; "
+                          "set '%s' belongs to no boundary, so a traction has no %s to act on; "
                           "use a boundary, a set 'within' a distance of one, or body_force",
-                          load[k].set);
+                          load[k].set, nodes->dim == 3 ? "area" : "length");
     }
     for (size_t k = 0; k < c->no_fail.count; k++)
         set_named(deck, &name[k], nodes);
@@ -103,7 +103,7 @@ static void make_load(const struct kr_case_load *from, const struct kr_nodes *no
     const struct kr_deck_formula *formula = formulas_of(from, &load->kind);
     double share = formula == from->traction ? load->set->measure / volume_of(nodes, load->set) : 1;
     load->ramp = from->ramp;
-    for (int d = 0; d < 2; d++) {
+    for (int d = 0; d < nodes->dim; d++) {
         char *why = NULL;
         if (!formula[d].text || formula[d].is_free)
             continue;
@@ -116,7 +116,7 @@ static void make_load(const struct kr_case_load *from, const struct kr_nodes *no
 /* Two loads must not prescribe the same component of a node. */
 static void check_conflicts(struct kr_deck *deck, const struct kr_case *c,
                             const struct kr_boundary *b) {
-    int *owner = KR_NEW(int, b->nodes->n * 2);
+    int *owner = KR_NEW(int, b->nodes->n * (size_t)b->dim);
     const struct kr_case_load *from = c->loads.item;
     for (size_t k = 0; k < b->count; k++) {
         const struct load *load = &b->load[k];
@@ -124,8 +124,8 @@ static void check_conflicts(struct kr_deck *deck, const struct kr_case *c,
         if (load->kind == BODY_FORCE)
             continue;
         for (size_t m = 0; m < load->set->count && !fault; m++)
-            for (int d = 0; d < 2 && !fault; d++) {
-                int *at = &owner[2 * load->set->node[m] + d];
+            for (int d = 0; d < b->dim && !fault; d++) {
+                int *at = &owner[b->dim * load->set->node[m] + d];
                 if (!load->part[d].expression)
                     continue;
                 fault = *at;

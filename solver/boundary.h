@@ -49,7 +49,7 @@ double kr_boundary_power(struct kr_boundary *boundary, const struct kr_body *bod
 /** Loads and what they pulled with at the last kr_boundary_power. */
 size_t kr_boundary_count(const struct kr_boundary *boundary);
 const char *kr_boundary_set(const struct kr_boundary *boundary, size_t k);
-/** Component d of the force of load k on the body [N/m in 2D]. */
+/** Component d of the force of load k on the body [N/m, in 3D N]. */
 double kr_boundary_reaction(const struct kr_boundary *boundary, size_t k, int d);
 
 #endif

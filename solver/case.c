@@ -13,6 +13,9 @@
 #define POSITIVE .least = 0, .most = INFINITY, .exclusive = 1
 #define NOT_NEGATIVE .least = 0, .most = INFINITY
 #define VECTOR_OF(where) .type = KR_DECK_VECTOR, .offset = (where), .unit = "m", .count = 2
+/* In a plate two components, in a solid three. */
+#define PLACE_OF(where)                                                                            \
+    .type = KR_DECK_VECTOR, .offset = (where), .unit = "m", .count = 3, .fewest = 2
 #define NUMBER_OF(where, si) .type = KR_DECK_NUMBER, .offset = (where), .unit = (si)
 #define LIST_OF(what, type_, keys_)                                                                \
     .type = (what), .item_size = sizeof(type_), .keys = (keys_), .fallback = ""
@@ -115,9 +118,9 @@ static const struct kr_deck_key set_keys[] = {
      .text = "Nodes within this distance of a boundary. Goes with `of`."},
     {"of", KR_DECK_TEXT, SET_AT(of), .fallback = "",
      .text = "Name of the boundary in the mesh: `left`, `right`, `top`, `bottom`, `hole_1`, ..."},
-    {"lower", VECTOR_OF(SET_AT(lower)), .fallback = "",
-     .text = "Or nodes in a box: its lower left corner. Goes with `upper`."},
-    {"upper", VECTOR_OF(SET_AT(upper)), .fallback = "", .text = "Its upper right corner."},
+    {"lower", PLACE_OF(SET_AT(lower)), .fallback = "",
+     .text = "Or nodes in a box: its corner of least coordinates. Goes with `upper`."},
+    {"upper", PLACE_OF(SET_AT(upper)), .fallback = "", .text = "Its opposite corner."},
     {NULL},
 };
 
@@ -154,8 +157,13 @@ static const struct kr_deck_key material_keys[] = {
     {"law", KR_DECK_TEXT, AT(law), .fallback = "pmb",
      .text = "Material law; `pmb`: prototype microelastic brittle, with a constant micromodulus."},
     {"model", KR_DECK_CHOICE, AT(model), .words = KR_MODEL_WORDS,
-     .text = "Thin or thick plate. Bonds fix Poisson's ratio: 1/3 in plane stress, 1/4 in plane "
-             "strain."},
+     .text = "Thin plate, thick plate, or a body in three dimensions (`solid`: all vectors of the "
+             "deck then have three components). Bonds fix Poisson's ratio: 1/3 in plane stress, 1/4 "
+             "otherwise."},
+    {"micromodulus", KR_DECK_CHOICE, AT(micromodulus), .words = KR_MICROMODULUS_WORDS,
+     .fallback = "constant",
+     .text = "Stiffness of bonds over their length: `constant` up to the horizon, or `conical`, "
+             "falling evenly to nothing there."},
     {"youngs_modulus", NUMBER_OF(AT(youngs_modulus), "Pa"), POSITIVE, .text = "Young's modulus."},
     {"density", NUMBER_OF(AT(density), "kg/m^3"), POSITIVE, .text = "Density."},
     {"fracture_energy", NUMBER_OF(AT(fracture_energy), "J/m^2"), .fallback = "0 J/m^2",
@@ -164,8 +172,8 @@ static const struct kr_deck_key material_keys[] = {
 };
 
 static const struct kr_deck_key crack_keys[] = {
-    {"from", VECTOR_OF(offsetof(struct kr_case_crack, from)), .text = "One end."},
-    {"to", VECTOR_OF(offsetof(struct kr_case_crack, to)), .text = "The other end."},
+    {"from", PLACE_OF(offsetof(struct kr_case_crack, from)), .text = "One end."},
+    {"to", PLACE_OF(offsetof(struct kr_case_crack, to)), .text = "The other end."},
     {NULL},
 };
 
@@ -180,12 +188,14 @@ static const struct kr_deck_key cracks_keys[] = {
 
 #define LOAD_AT(field) offsetof(struct kr_case_load, field)
 #define LOAD_OF(where, si)                                                                         \
-    .type = KR_DECK_FORMULAS, .offset = (where), .unit = (si), .count = 2, .fallback = ""
+    .type = KR_DECK_FORMULAS, .offset = (where), .unit = (si), .count = 3, .fallback = ""
 static const struct kr_deck_key load_keys[] = {
     {"set", KR_DECK_TEXT, LOAD_AT(set), .text = "Name of a set under `nodes.sets`."},
     {"displacement", LOAD_OF(LOAD_AT(displacement), "m"),
-     .text = "Prescribed displacement `[x, y]`; `free` leaves a component out."},
-    {"velocity", LOAD_OF(LOAD_AT(velocity), "m/s"), .text = "Prescribed velocity `[x, y]`."},
+     .text = "Prescribed displacement `[x, y]`, in a solid `[x, y, z]`; `free` leaves a component "
+             "out."},
+    {"velocity", LOAD_OF(LOAD_AT(velocity), "m/s"),
+     .text = "Prescribed velocity, with `free` likewise."},
     {"traction", LOAD_OF(LOAD_AT(traction), "Pa"),
      .text = "Force per area of the boundary that the set belongs to, spread over its nodes."},
     {"body_force", LOAD_OF(LOAD_AT(body_force), "N/m^3"), .text = "Force per volume."},

@@ -15,7 +15,8 @@
 #define KR_PARTIAL_VOLUME_WORDS "hhb none hhb-one-sided exact exact-centroid"
 #define KR_SURFACE_WORDS "energy none volume force-density"
 #define KR_DEFORMATION_WORDS "uniaxial-y uniaxial-x isotropic mean-over-axes"
-#define KR_MODEL_WORDS "plane-stress plane-strain"
+#define KR_MODEL_WORDS "plane-stress plane-strain solid"
+#define KR_MICROMODULUS_WORDS "constant conical"
 #define KR_PRESET_WORDS "none plates-paper"
 enum kr_preset { KR_PRESET_NONE, KR_PRESET_PLATES_PAPER };
 enum kr_grid { KR_GRID_NEAR_BOUNDARY, KR_GRID_UNIFORM, KR_GRID_FREE, KR_GRID_VORONOI };
@@ -41,7 +42,8 @@ enum kr_surface_correction {
     KR_SURFACE_FORCE_DENSITY,
 };
 enum kr_deformation { KR_UNIAXIAL_Y, KR_UNIAXIAL_X, KR_ISOTROPIC, KR_MEAN_OVER_AXES };
-enum kr_model { KR_PLANE_STRESS, KR_PLANE_STRAIN };
+enum kr_model { KR_PLANE_STRESS, KR_PLANE_STRAIN, KR_SOLID };
+enum kr_micromodulus { KR_CONSTANT, KR_CONICAL };
 
 /* A hole; what follows the radius is for other shapes than the circle. */
 struct kr_case_hole {
@@ -76,19 +78,19 @@ struct kr_case_set {
     const char *name;
     double within;    /* m: nodes within this distance ... */
     const char *of;   /* ... of this boundary */
-    double lower[2], upper[2]; /* m: or nodes in this box */
+    double lower[3], upper[3]; /* m: or nodes in this box */
 };
 
 struct kr_case_crack {
-    double from[2], to[2]; /* m */
+    double from[3], to[3]; /* m */
 };
 
 struct kr_case_load {
     const char *set;
-    struct kr_deck_formula displacement[2]; /* m */
-    struct kr_deck_formula velocity[2];     /* m/s */
-    struct kr_deck_formula traction[2];     /* Pa, on the boundary that the set belongs to */
-    struct kr_deck_formula body_force[2];   /* N/m^3 */
+    struct kr_deck_formula displacement[3]; /* m */
+    struct kr_deck_formula velocity[3];     /* m/s */
+    struct kr_deck_formula traction[3];     /* Pa, on the boundary that the set belongs to */
+    struct kr_deck_formula body_force[3];   /* N/m^3 */
     double ramp; /* s: from 0 to the full value in this time; 0: at once */
 };
 
@@ -122,6 +124,7 @@ struct kr_case {
     /* material */
     const char *law;
     int model; /* enum kr_model */
+    int micromodulus; /* enum kr_micromodulus */
     double youngs_modulus;  /* Pa */
     double density;         /* kg/m^3 */
     double fracture_energy; /* J/m^2; 0: does not break */
@@ -176,6 +179,9 @@ void kr_case_preset(const struct kr_deck *deck, struct kr_case *c);
 /** Check what no single key can tell: horizon against spacing, loads against sets. Faults are
  *  collected in the deck. `c` must be the struct that the deck was read into. */
 void kr_case_check(struct kr_deck *deck, const struct kr_case *c);
+
+/** Dimensions of the body: 3 for a solid, else 2. */
+int kr_case_dim(const struct kr_case *c);
 
 /** The part of it that looks at outline, holes and pores. */
 void kr_case_check_geometry(struct kr_deck *deck, const struct kr_case *c);

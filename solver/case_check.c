@@ -49,14 +49,25 @@ static int is_name(const char *text) {
     return *text && !text[strspn(text, good)];
 }
 
-static void check_box(struct kr_deck *deck, const double *lower, const double *upper) {
-    for (int k = 0; k < 2; k++)
+/* Whether a vector that the deck gives has one component an axis; a fault if not. */
+static int check_count(struct kr_deck *deck, const struct kr_case *c, const void *vector) {
+    size_t count = kr_deck_count(deck, vector), dim = (size_t)kr_case_dim(c);
+    if (count && count != dim)
+        kr_deck_fault(deck, vector, "found %zu component%s, expected %zu: the model is %s", count,
+                      count == 1 ? "" : "s", dim,
+                      dim == 3 ? "solid" : "a plate; material.model: solid has three");
+    return count == dim;
+}
+
+static void check_box(struct kr_deck *deck, const double *lower, const double *upper, int dim) {
+    for (int k = 0; k < dim; k++)
         if (lower[k] >= upper[k])
-            kr_deck_fault(deck, upper, "%c = %g m is not above that of `lower`, %g m", "xy"[k],
+            kr_deck_fault(deck, upper, "%c = %g m is not above that of `lower`, %g m", "xyz"[k],
                           upper[k], lower[k]);
 }
 
-static void check_set(struct kr_deck *deck, const struct kr_case_set *set) {
+static void check_set(struct kr_deck *deck, const struct kr_case *c,
+                      const struct kr_case_set *set) {
     int within = kr_deck_given(deck, &set->within), of = kr_deck_given(deck, &set->of);
     int lower = kr_deck_given(deck, set->lower), upper = kr_deck_given(deck, set->upper);
     if (!is_name(set->name))
@@ -72,9 +83,9 @@ static void check_set(struct kr_deck *deck, const struct kr_case_set *set) {
     else if (lower != upper)
         kr_deck_fault(deck, &set->name, "'%s' goes with '%s', which is missing",
                       lower ? "lower" : "upper", lower ? "upper" : "lower");
-    else if (lower)
-        check_box(deck, set->lower, set->upper);
-    else if (!within)
+    else if (lower && check_count(deck, c, set->lower) && check_count(deck, c, set->upper))
+        check_box(deck, set->lower, set->upper, kr_case_dim(c));
+    else if (!lower && !within)
         kr_deck_fault(deck, &set->name,
                       "empty; expected 'within' and 'of', or 'lower' and 'upper'");
     if (of && set->of && !is_name(set->of))
@@ -82,7 +93,15 @@ static void check_set(struct kr_deck *deck, const struct kr_case_set *set) {
                       "found '%.40s', expected the name of a boundary, such as 'top'", set->of);
 }
 
-static void check_load(struct kr_deck *deck, const struct kr_case_load *load) {
+static int is_all_free(const struct kr_deck_formula formula[3]) {
+    for (int d = 0; d < 3; d++)
+        if (formula[d].text && !formula[d].is_free)
+            return 0;
+    return 1;
+}
+
+static void check_load(struct kr_deck *deck, const struct kr_case *c,
+                       const struct kr_case_load *load) {
     const struct kr_deck_formula *kinds[] = {load->displacement, load->velocity, load->traction,
                                              load->body_force};
     const struct kr_deck_formula *first = NULL;
@@ -100,7 +119,7 @@ static void check_load(struct kr_deck *deck, const struct kr_case_load *load) {
         kr_deck_fault(deck, &load->set,
                       "the load does nothing; expected one of displacement, velocity, traction and "
                       "body_force");
-    else if (first[0].is_free && (first[1].is_free || !first[1].text))
+    else if (check_count(deck, c, first) && is_all_free(first))
         kr_deck_fault(deck, first, "all components are free; the load does nothing");
 }
 
@@ -108,9 +127,9 @@ static void check_sets_and_loads(struct kr_deck *deck, const struct kr_case *c) 
     const struct kr_case_set *sets = c->sets.item;
     const struct kr_case_load *loads = c->loads.item;
     for (size_t i = 0; i < c->sets.count; i++)
-        check_set(deck, &sets[i]);
+        check_set(deck, c, &sets[i]);
     for (size_t i = 0; i < c->loads.count; i++)
-        check_load(deck, &loads[i]);
+        check_load(deck, c, &loads[i]);
 }
 
 static void check_cracks(struct kr_deck *deck, const struct kr_case *c) {
@@ -119,7 +138,7 @@ static void check_cracks(struct kr_deck *deck, const struct kr_case *c) {
         const double *from = cracks[i].from, *to = cracks[i].to;
         int outside = larger((double[]){from[0], to[0]}) <= 0 || fmin(from[0], to[0]) >= c->width ||
                       larger((double[]){from[1], to[1]}) <= 0 || fmin(from[1], to[1]) >= c->height;
-        if (!kr_deck_given(deck, from) || !kr_deck_given(deck, to))
+        if (!check_count(deck, c, from) || !check_count(deck, c, to))
             continue;
         if (from[0] == to[0] && from[1] == to[1])
             kr_deck_fault(deck, to, "the crack ends where it begins, (%g, %g) m", to[0], to[1]);
@@ -164,6 +183,10 @@ static void check_law(struct kr_deck *deck, const struct kr_case *c) {
     kr_deck_fault(deck, &c->law, "unknown law '%.40s'; there is %s", c->law, known);
 }
 
+int kr_case_dim(const struct kr_case *c) {
+    return c->model == KR_SOLID ? 3 : 2;
+}
+
 void kr_case_check(struct kr_deck *deck, const struct kr_case *c) {
     const struct kr_case_box *boxes = c->boxes.item;
     check_mesh(deck, c);
@@ -173,7 +196,7 @@ void kr_case_check(struct kr_deck *deck, const struct kr_case *c) {
     check_times(deck, c);
     for (size_t i = 0; i < c->boxes.count; i++)
         if (kr_deck_given(deck, boxes[i].lower) && kr_deck_given(deck, boxes[i].upper))
-            check_box(deck, boxes[i].lower, boxes[i].upper);
+            check_box(deck, boxes[i].lower, boxes[i].upper, 2);
     check_law(deck, c);
 }
 

@@ -12,11 +12,11 @@ struct kr_crack {
     size_t n;
     double threshold;
     double *damage_time; /* (n) s; infinite: not yet; -1: by the pre-crack alone */
-    double energy;       /* J/m: sum over all broken bonds of what each held when it broke */
+    double energy;       /* J/m, in 3D J: sum over all broken bonds of what each held when it broke */
     size_t count, room;  /* broken pairs */
     int32_t *pair;       /* (count x 2) */
     double *time;        /* (count) s */
-    double *held;        /* (count) J/m */
+    double *held;        /* (count) likewise */
 };
 
 /** Begin a record; nodes whose damage passes the threshold already get -1. */

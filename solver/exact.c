@@ -27,8 +27,8 @@ static double weight_of(const struct kr_bonds *b, const struct kr_bond *bond) {
 
 double kr_exact_pair_energy(const struct kr_bonds *b, const struct kr_bond *bond, double stretch) {
     const struct kr_material *m = &b->material;
-    return b->volume[bond->i] * b->volume[bond->j] * weight_of(b, bond) * m->micromodulus *
-           bond->length * m->law->energy(stretch);
+    return b->volume[bond->i] * b->volume[bond->j] * weight_of(b, bond) *
+           kr_material_micromodulus(m, bond->length) * bond->length * m->law->energy(stretch);
 }
 
 /* Force density of a bond on its node i. */
@@ -36,7 +36,8 @@ static void pair_force(const struct kr_kernel_work *work, const struct kr_bond *
                        double force[3]) {
     const struct kr_bonds *b = work->bonds;
     const struct kr_material *m = &b->material;
-    double pull = m->micromodulus * m->law->force(s) * weight_of(b, bond) * b->volume[bond->j];
+    double pull = kr_material_micromodulus(m, bond->length) * m->law->force(s) * weight_of(b, bond) *
+                  b->volume[bond->j];
     for (int d = 0; d < b->dim; d++) {
         double eta = work->u[d][bond->j] - work->u[d][bond->i];
         force[d] = pull * (bond->xi[d] + eta) / (bond->length * (1 + s));
@@ -76,7 +77,8 @@ static void pair_product(const struct kr_kernel_work *work, const struct kr_bond
                          double product[3]) {
     const struct kr_bonds *b = work->bonds;
     const struct kr_material *m = &b->material;
-    double volume = m->micromodulus * weight_of(b, bond) * b->volume[bond->j] / bond->length;
+    double volume = kr_material_micromodulus(m, bond->length) * weight_of(b, bond) *
+                    b->volume[bond->j] / bond->length;
     double v[3], unit[3], along = 0;
     for (int d = 0; d < b->dim; d++) {
         v[d] = work->v[d][bond->j] - work->v[d][bond->i];
@@ -114,6 +116,7 @@ void kr_exact_break(struct kr_bonds *b, const struct kr_kernel_work *work, size_
         if (!(s > b->material.critical_stretch) || b->no_fail[bond.i] || b->no_fail[bond.j])
             continue;
         b->living[bond.row] &= (uint8_t)~(1u << bond.lane);
+        b->twin[slice / 2] = 0;
         pair_force(work, &bond, s, force);
         for (int d = 0; d < b->dim; d++)
             work->force[d][bond.i] -= 0.5 * force[d];

@@ -13,7 +13,7 @@
 struct kr_broken {
     int i, j;      /* i < j once both ends were brought together */
     double weight; /* phi as seen from i */
-    double energy; /* J/m: what the pair held when it broke; of one end: half of it */
+    double energy; /* J/m, in 3D J: what the pair held when it broke; of one end: half of it */
 };
 
 /** A growing list of them. */
@@ -26,7 +26,7 @@ struct kr_broken_list {
 double kr_exact_stretch(const struct kr_bonds *bonds, const struct kr_bond *bond,
                         const double *const u[3]);
 
-/** Energy of the pair [J/m in 2D]: V_i V_j w_ij c |xi| energy(s). */
+/** Energy of the pair [J/m, in 3D J]: V_i V_j w_ij c |xi| energy(s). */
 double kr_exact_pair_energy(const struct kr_bonds *bonds, const struct kr_bond *bond, double stretch);
 
 /** Force density [N/m^3] of the nodes of one slice; theory.md (7), plates paper eq. 11. */

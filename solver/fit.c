@@ -9,6 +9,10 @@
 #include <math.h>
 #include <string.h>
 
+/* Of a relative error. Bond lengths are rounded to 6e-8 (bonds.h), and each two terms more cost some
+ * 10 % of the time. */
+static const double ENOUGH = 1e-12;
+
 /* Near e = 0 the quotients are 0/0; the series' first term serves there: force(s) -> s = e/2. */
 static const double SMALL = 1e-5;
 
@@ -85,7 +89,7 @@ static struct kr_polynomial fit_one(double (*at)(const struct kr_law *, double),
                                     const struct kr_law *law, double range) {
     int n = 6;
     struct kr_polynomial fit = interpolate(at, law, range, n);
-    while (n + 2 <= KR_FIT_TERMS && error_of(&fit, at, law, range) > 1e-14) {
+    while (n + 2 <= KR_FIT_TERMS && error_of(&fit, at, law, range) > ENOUGH) {
         n += 2;
         struct kr_polynomial better = interpolate(at, law, range, n);
         if (error_of(&better, at, law, range) >= error_of(&fit, at, law, range))

@@ -30,7 +30,7 @@ struct kr_fit {
     struct kr_polynomial pull, store, tangent; /* tangent has as many terms as pull */
 };
 
-/** Fit a material's law to a relative error below 1e-14 where KR_FIT_TERMS terms allow it. `range`
+/** Fit a material's law to a relative error below 1e-12 where KR_FIT_TERMS terms allow it. `range`
  *  reaches just past the critical stretch, but at least to 0.02 (bonds may be pressed harder than
  *  they may be pulled) and at most to 0.5: outside, the loop takes the law itself. */
 struct kr_fit kr_fit_make(const struct kr_material *material);

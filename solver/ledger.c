@@ -14,6 +14,10 @@
 #include <string.h>
 #include <unistd.h>
 
+const char *kr_ledger_unit(int dim) {
+    return dim == 2 ? "J/m" : "J";
+}
+
 struct kr_ledger *kr_ledger_create(const struct kr_body *body) {
     struct kr_ledger *ledger = KR_NEW(struct kr_ledger, 1);
     *ledger = (struct kr_ledger){.n = body->n, .dim = body->dim};
@@ -111,15 +115,19 @@ struct kr_history *kr_history_open(const char *path, const struct kr_boundary *b
         kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", path, strerror(errno));
     if (bytes > 0)
         return h;
-    fprintf(h->file, "step,time [s],kinetic [J/m],strain [J/m],fracture [J/m],external_work [J/m],"
-                     "balance [J/m],broken_bonds");
+    static const char *const name[] = {"kinetic", "strain", "fracture", "external_work", "balance"};
+    fprintf(h->file, "step,time [s]");
+    for (size_t k = 0; k < sizeof name / sizeof *name; k++)
+        fprintf(h->file, ",%s [%s]", name[k], kr_ledger_unit(dim));
+    fprintf(h->file, ",broken_bonds");
     for (size_t k = 0; k < kr_boundary_count(boundary); k++) {
         char again[32] = "";
         size_t before = loads_before(boundary, k);
         if (before)
             snprintf(again, sizeof again, " (%zu)", before + 1);
         for (int d = 0; d < dim; d++)
-            fprintf(h->file, ",reaction_%c %s%s [N/m]", "xyz"[d], kr_boundary_set(boundary, k), again);
+            fprintf(h->file, ",reaction_%c %s%s [%s]", "xyz"[d], kr_boundary_set(boundary, k), again,
+                    dim == 2 ? "N/m" : "N");
     }
     fprintf(h->file, "\n");
     check_written(h);

@@ -9,17 +9,20 @@
 #include "boundary.h"
 #include "crack.h"
 
-/** Energies at one time [J/m in 2D]. */
+/** Energies at one time [J/m in 2D, J in 3D]. */
 struct kr_ledger {
     double kinetic, strain, fracture, external;
-    double most_external; /* J/m: the most that external was so far, in size */
-    double power;   /* W/m, of the loads at the last step */
+    double most_external; /* the most that external was so far, in size */
+    double power;   /* W/m, in 3D W: of the loads at the last step */
     double balance; /* external - kinetic - strain - fracture as of the last kr_ledger_update: 0 but
                        for the error of the time integration */
     double *v[3]; /* m/s: room for the velocities at the time of the forces */
     size_t n;
     int dim;
 };
+
+/** "J/m" in 2D, "J" in 3D. */
+const char *kr_ledger_unit(int dim);
 
 struct kr_ledger *kr_ledger_create(const struct kr_body *body);
 void kr_ledger_free(struct kr_ledger *ledger);

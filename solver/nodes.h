@@ -22,6 +22,7 @@ struct kr_set {
 struct kr_nodes_made_for {
     double horizon;              /* m; 0: no factors */
     char model[32];              /* "plane-stress" */
+    char micromodulus[32];       /* "constant" */
     char partial_volume[32];     /* "hhb" */
     char surface_correction[32]; /* "energy" */
     char deformation[32];        /* "uniaxial-y" */

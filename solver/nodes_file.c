@@ -28,6 +28,7 @@ static void write_sets(const struct kr_nodes *nodes, struct kr_h5 *file) {
 static void write_made_for(const struct kr_nodes *nodes, struct kr_h5 *file) {
     kr_h5_set_double(file, "/", "horizon", nodes->made_for.horizon);
     kr_h5_set_text(file, "/", "model", nodes->made_for.model);
+    kr_h5_set_text(file, "/", "micromodulus", nodes->made_for.micromodulus);
     kr_h5_set_text(file, "/", "partial_volume", nodes->made_for.partial_volume);
     kr_h5_set_text(file, "/", "surface_correction", nodes->made_for.surface_correction);
     kr_h5_set_text(file, "/", "deformation", nodes->made_for.deformation);
@@ -130,6 +131,10 @@ struct kr_nodes *kr_nodes_read(const char *path) {
     nodes->spacing = kr_h5_get_double(file, "/", "spacing");
     nodes->made_for.horizon = kr_h5_get_double(file, "/", "horizon");
     read_word(file, "model", nodes->made_for.model);
+    if (kr_h5_has_attribute(file, "/", "micromodulus"))
+        read_word(file, "micromodulus", nodes->made_for.micromodulus);
+    else /* files of before there was a choice */
+        snprintf(nodes->made_for.micromodulus, sizeof nodes->made_for.micromodulus, "constant");
     read_word(file, "partial_volume", nodes->made_for.partial_volume);
     read_word(file, "surface_correction", nodes->made_for.surface_correction);
     read_word(file, "deformation", nodes->made_for.deformation);

@@ -29,6 +29,14 @@ static void check_word(struct kr_deck *deck, const int *field, int choice, const
 static void check_made_for(struct kr_deck *deck, const struct kr_case *c, int partial_volume,
                            const struct kr_nodes *nodes) {
     const struct kr_nodes_made_for *made = &nodes->made_for;
+    if (nodes->dim != kr_case_dim(c)) {
+        kr_deck_fault(deck, &c->model,
+                      nodes->dim == 3 ? "this model is for plates, but the node file holds a body in "
+                                        "three dimensions; take solid"
+                                      : "the model is solid, but the node file holds a plate; run "
+                                        "kirsch-nodes again, or take plane-stress or plane-strain");
+        return;
+    }
     if (fabs(made->horizon / c->horizon - 1) > 1e-12)
         kr_deck_fault(deck, &c->horizon,
                       "found %g m, but the node file was made for %g m; run kirsch-nodes again",
@@ -40,6 +48,7 @@ static void check_made_for(struct kr_deck *deck, const struct kr_case *c, int pa
     if (c->surface_correction == KR_SURFACE_NONE)
         return;
     check_word(deck, &c->model, c->model, KR_MODEL_WORDS, made->model);
+    check_word(deck, &c->micromodulus, c->micromodulus, KR_MICROMODULUS_WORDS, made->micromodulus);
     if (c->surface_correction == KR_SURFACE_ENERGY)
         check_word(deck, &c->surface_deformation, c->surface_deformation, KR_DEFORMATION_WORDS,
                    made->deformation);
@@ -59,21 +68,21 @@ static void mark_no_fail(const struct kr_case *c, const struct kr_nodes *nodes,
  * over the sum of the forces' sizes. Symmetric weights leave 1e-16. */
 static void report_drift(struct kr_body *body, double width) {
     const struct kr_bonds *b = body->bonds;
-    double net[2] = {0}, all = 0;
+    double net[3] = {0}, all = 0;
     for (size_t i = 0; i < body->n; i++) {
         double angle = 2 * M_PI / width * (b->x[0][i] + 2 * b->x[1][i]);
         body->u[0][i] = 1e-6 * width * sin(angle);
         body->u[1][i] = 1e-6 * width * cos(angle);
     }
     kr_body_force(body, 0);
-    for (int d = 0; d < 2; d++)
+    for (int d = 0; d < body->dim; d++)
         for (size_t i = 0; i < body->n; i++) {
             net[d] += b->volume[i] * body->force[d][i];
             all += b->volume[i] * fabs(body->force[d][i]);
             body->u[d][i] = 0;
         }
     kr_say("  one-sided weights: a wave of the plate's width leaves a net force of %.1e of all forces, "
-           "so momentum drifts", hypot(net[0], net[1]) / all);
+           "so momentum drifts", hypot(hypot(net[0], net[1]), net[2]) / all);
 }
 
 /* dt as the deck gives it, or the safe one, shortened a little so that whole steps reach the end. */
@@ -148,10 +157,12 @@ void kr_run_explain(const struct kr_run *run) {
     const struct kr_material *m = &run->bonds->material;
     struct kr_wave wave =
         kr_wave_speeds(m->youngs_modulus, m->poissons_ratio, m->density, (enum kr_model)m->model);
-    char model[32];
+    char model[32], profile[32];
     kr_case_word(KR_MODEL_WORDS, m->model, model);
-    kr_say("  law %s, %s: Poisson's ratio of the model %.4g, micromodulus c %.5g N/m^5", m->law->name,
-           model, m->poissons_ratio, m->micromodulus);
+    kr_case_word(KR_MICROMODULUS_WORDS, m->profile, profile);
+    kr_say("  law %s, %s: Poisson's ratio of the model %.4g, %s micromodulus c %.5g N/m^%d",
+           m->law->name, model, m->poissons_ratio, profile, m->micromodulus,
+           m->model == KR_SOLID ? 6 : 5);
     kr_say("  critical stretch s0 %.5g, horizon over spacing m = %.3g", m->critical_stretch,
            m->horizon / run->nodes->spacing);
     kr_say("  wave speeds: longitudinal %.1f, shear %.1f, Rayleigh %.1f m/s", wave.longitudinal,

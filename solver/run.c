@@ -102,6 +102,7 @@ void kr_run_solve(struct kr_run *run, const char *deck_text, int resume) {
     struct kr_body *body = run->body;
     struct records r;
     const long first = records_open(run, deck_text, resume, &r);
+    const char *energy = kr_ledger_unit(body->dim);
     struct kr_progress progress =
         kr_progress_begin("steps", (double)first, (double)run->steps);
     kr_interrupt_begin();
@@ -121,14 +122,14 @@ void kr_run_solve(struct kr_run *run, const char *deck_text, int resume) {
         kr_body_advance(body, step == 0 ? 0.5 * run->dt : run->dt, run->dt);
         save(run, &r, step + 1);
         kr_progress_show(&progress, (double)step,
-                         "t %.4g us, %zu bonds broken, %.3g J/m of work, balance %.1e", 1e6 * t,
-                         r.crack->count, r.ledger->external, r.ledger->balance);
+                         "t %.4g us, %zu bonds broken, %.3g %s of work, balance %.1e", 1e6 * t,
+                         r.crack->count, r.ledger->external, energy, r.ledger->balance);
     }
     kr_progress_end(&progress, (double)run->bonds->count * (double)(run->steps - first + 1),
                     "directed bond updates");
-    kr_say("  energies at the end [J/m]: external work %.4g = kinetic %.4g + strain %.4g + fracture "
+    kr_say("  energies at the end [%s]: external work %.4g = kinetic %.4g + strain %.4g + fracture "
            "%.4g, balance %.2e",
-           r.ledger->external, r.ledger->kinetic, r.ledger->strain, r.ledger->fracture,
+           energy, r.ledger->external, r.ledger->kinetic, r.ledger->strain, r.ledger->fracture,
            r.ledger->balance);
     records_close(&r);
     kr_checkpoint_remove(run->c);

@@ -52,8 +52,8 @@ static double classical_of(const struct kr_bonds *b) {
         struct kr_bond bond;
         double sum[KR_LANES] = {0};
         while (kr_bonds_next(b, &walk, &bond))
-            sum[bond.lane] += b->material.micromodulus * bond.weight * b->volume[bond.j] * 0.5 *
-                              (b->factor[bond.i] + b->factor[bond.j]) / bond.length;
+            sum[bond.lane] += kr_material_micromodulus(&b->material, bond.length) * bond.weight *
+                              b->volume[bond.j] * 0.5 * (b->factor[bond.i] + b->factor[bond.j]) / bond.length;
         for (int lane = 0; lane < KR_LANES; lane++)
             largest = fmax(largest, sum[lane]);
     }

@@ -107,6 +107,20 @@ static inline struct kr_nodes *kr_plate_cells(size_t columns, size_t rows, doubl
     return nodes;
 }
 
+/** Centres of columns x rows x layers cubes; a corner of the first is at (0, 0, 0). */
+static inline struct kr_nodes *kr_block_lattice(size_t columns, size_t rows, size_t layers,
+                                                double spacing) {
+    struct kr_nodes *nodes = kr_nodes_create(3, columns * rows * layers);
+    nodes->spacing = spacing;
+    for (size_t i = 0; i < nodes->n; i++) {
+        const size_t place[3] = {i % columns, i / columns % rows, i / columns / rows};
+        for (size_t d = 0; d < 3; d++)
+            nodes->position[3 * i + d] = ((double)place[d] + 0.5) * spacing;
+        nodes->volume[i] = spacing * spacing * spacing;
+    }
+    return nodes;
+}
+
 /** A block of cubes; those in its upper half are moved by up to 0.2 spacings and hold 0.6 to 1.4 of
  * a cube's volume. */
 static inline struct kr_nodes *kr_plate_block(size_t columns, size_t rows, size_t layers,

@@ -108,12 +108,18 @@ void kr_deck_note(const struct kr_deck_spot *spot, const void *address) {
     struct kr_deck *deck = spot->deck;
     KR_GROW(deck->field, deck->n_fields, deck->fields_room);
     deck->field[deck->n_fields++] =
-        (struct kr_deck_field){address, kr_text_copy(spot->path), spot->node->at, spot->given};
+        (struct kr_deck_field){address, kr_text_copy(spot->path), spot->node->at, spot->given,
+                               spot->node->count};
 }
 
 int kr_deck_given(const struct kr_deck *deck, const void *address) {
     const struct kr_deck_field *field = field_at(deck, address);
     return field && field->given;
+}
+
+size_t kr_deck_count(const struct kr_deck *deck, const void *address) {
+    const struct kr_deck_field *field = field_at(deck, address);
+    return field && field->given ? field->count : 0;
 }
 
 const char *kr_deck_where(struct kr_deck *deck, const void *address) {

@@ -26,7 +26,7 @@ enum kr_deck_type {
     KR_DECK_BOOLEAN,    /* int: `true` or `false` */
     KR_DECK_CHOICE,     /* int: place in the row's list of words */
     KR_DECK_TEXT,       /* const char *, owned by the deck */
-    KR_DECK_VECTOR,     /* double[count]: `[50 mm, 25 mm]` */
+    KR_DECK_VECTOR,     /* double[count]: `[50 mm, 25 mm]`; with `fewest`, at least so many */
     KR_DECK_NUMBERS,    /* struct kr_deck_list of double: a list of any length; with `count`, of
                            lists of so many: `[[0 mm, 0 mm], [2 mm, 1 mm]]`, one after the other */
     KR_DECK_TEXTS,      /* struct kr_deck_list of const char * */
@@ -65,7 +65,8 @@ struct kr_deck_key {
     double least, most;    /* allowed range in SI, for each number; both 0: any finite number */
     int exclusive;         /* the value must lie above `least`, not at it */
     const char *words;     /* CHOICE: "near-boundary uniform"; the first is 0 */
-    size_t count;          /* VECTOR, FORMULAS: how many; NUMBERS: in each; a FORMULAS may be given fewer (2 in 2D) */
+    size_t count;          /* VECTOR, FORMULAS: how many; NUMBERS: in each; a FORMULAS may be given fewer */
+    size_t fewest;         /* VECTOR: the least that may be given (2 in 2D); 0: just `count` */
     const struct kr_deck_key *keys; /* SECTION, LIST, MAP */
     size_t item_size;               /* LIST, MAP */
     const char *text;               /* one or two sentences for the reference */
@@ -99,6 +100,10 @@ void kr_deck_fault(struct kr_deck *deck, const void *field, const char *format, 
 
 /** Whether the deck (or a variant, or the command line) gives this value itself. */
 int kr_deck_given(const struct kr_deck *deck, const void *field);
+
+/** How many components of a VECTOR or FORMULAS the deck gives itself; 0: the key is not given, or was
+ *  at fault. */
+size_t kr_deck_count(const struct kr_deck *deck, const void *field);
 
 /** "case.yaml:12:5: nodes.horizon" of a value, for messages after the deck was finished; owned by
  *  the deck. */

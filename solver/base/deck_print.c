@@ -196,7 +196,10 @@ static void print_kind(FILE *file, const struct kr_deck_key *key) {
         fputs("list of texts", file);
         break;
     case KR_DECK_VECTOR:
-        fprintf(file, "list of %zu, each %s", key->count, noun);
+        if (key->fewest)
+            fprintf(file, "list of %zu or %zu, each %s", key->fewest, key->count, noun);
+        else
+            fprintf(file, "list of %zu, each %s", key->count, noun);
         break;
     case KR_DECK_NUMBERS:
         if (key->count > 1)
@@ -208,7 +211,7 @@ static void print_kind(FILE *file, const struct kr_deck_key *key) {
         fprintf(file, "formula of %s", noun);
         break;
     case KR_DECK_FORMULAS:
-        fprintf(file, "list of %zu formulas, each %s", key->count, noun);
+        fprintf(file, "list of up to %zu formulas, each %s", key->count, noun);
         break;
     default:
         fputs(noun, file);

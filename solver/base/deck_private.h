@@ -47,6 +47,7 @@ struct kr_deck_field {
     char *path; /* "geometry.holes.0.radius" */
     struct kr_deck_mark at;
     int given;
+    size_t count; /* of components, where it is a list */
 };
 
 struct kr_deck {

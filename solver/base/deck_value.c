@@ -62,7 +62,9 @@ static char *expected_section(const struct kr_deck_key *key) {
 
 static char *expected_many(const struct kr_deck_key *key) {
     char *one = expected_number(key), *text;
-    if (key->type == KR_DECK_VECTOR)
+    if (key->type == KR_DECK_VECTOR && key->fewest)
+        text = kr_text("a list of %zu or %zu, each %s", key->fewest, key->count, one);
+    else if (key->type == KR_DECK_VECTOR)
         text = kr_text("a list of %zu, each %s", key->count, one);
     else if (key->type == KR_DECK_NUMBERS && key->count > 1)
         text = kr_text("a list of lists of %zu, each %s", key->count, one);
@@ -238,16 +240,19 @@ static void read_each(const struct kr_deck_spot *spot, char *place, size_t size)
 /* VECTOR and FORMULAS. The whole is noted after its parts, so that the address which it shares with
    the first of them leads to the whole. */
 static void read_fixed(const struct kr_deck_spot *spot, void *place, size_t size) {
-    const struct kr_deck_node *node = spot->node;
-    int fewer = spot->key->type == KR_DECK_FORMULAS;
-    if (node->kind != KR_DECK_SEQUENCE || node->count > spot->key->count || !node->count ||
-        (node->count < spot->key->count && !fewer)) {
-        kr_deck_mismatch(spot, comma_cure(node));
+    const struct kr_deck_node *node = spot->node, unread = {.at = node->at};
+    struct kr_deck_spot whole = *spot;
+    const char *cure = spot->key->type == KR_DECK_FORMULAS ? comma_cure(node) : "";
+    size_t fewest = spot->key->type == KR_DECK_FORMULAS ? 1 : spot->key->fewest;
+    if (node->kind != KR_DECK_SEQUENCE || node->count > spot->key->count ||
+        node->count < (fewest ? fewest : spot->key->count) || *cure) {
+        kr_deck_mismatch(spot, cure);
         kr_deck_spoil(spot->key, place);
+        whole.node = &unread;
     } else {
         read_each(spot, place, size);
     }
-    kr_deck_note(spot, place);
+    kr_deck_note(&whole, place);
 }
 
 /* A list of lists of `count` numbers, read into one array. */

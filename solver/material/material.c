@@ -23,12 +23,15 @@ const struct kr_law *const kr_laws[] = {
 };
 const size_t kr_laws_count = sizeof kr_laws / sizeof kr_laws[0];
 
-/* One row a model: c = micromodulus E/(pi delta^3), s0 = sqrt(stretch pi G0/(E delta)). */
+/* One row a model: c = micromodulus E/(pi delta^(dim + 1)), s0 = sqrt(stretch G0/(E delta)); first for
+ * the constant, then for the conical profile. */
 static const struct {
-    double poissons_ratio, micromodulus, stretch;
+    int dim;
+    double poissons_ratio, micromodulus[2], stretch[2];
 } models[] = {
-    [KR_PLANE_STRESS] = {1.0 / 3, 9.0, 4.0 / 9},
-    [KR_PLANE_STRAIN] = {1.0 / 4, 48.0 / 5, 5.0 / 12},
+    [KR_PLANE_STRESS] = {2, 1.0 / 3, {9.0, 36.0}, {4.0 / 9 * M_PI, 5.0 / 9 * M_PI}},
+    [KR_PLANE_STRAIN] = {2, 1.0 / 4, {48.0 / 5, 192.0 / 5}, {5.0 / 12 * M_PI, 25.0 / 48 * M_PI}},
+    [KR_SOLID] = {3, 1.0 / 4, {12.0, 60.0}, {5.0 / 6, 1.0}},
 };
 
 const struct kr_law *kr_law_named(const char *name) {
@@ -50,6 +53,19 @@ static double stretch_at(const struct kr_law *law, double energy) {
     return high;
 }
 
+void kr_material_profile(struct kr_material *m, int profile) {
+    double modulus = m->youngs_modulus;
+    m->profile = profile;
+    m->micromodulus = models[m->model].micromodulus[profile] * modulus /
+                      (M_PI * pow(m->horizon, models[m->model].dim + 1));
+    m->critical_stretch = INFINITY;
+    if (m->fracture_energy > 0) {
+        double linear = sqrt(models[m->model].stretch[profile] * m->fracture_energy /
+                             (modulus * m->horizon));
+        m->critical_stretch = stretch_at(m->law, 0.5 * linear * linear);
+    }
+}
+
 struct kr_material kr_material_make(const struct kr_law *law, int model, double youngs_modulus,
                                     double density, double fracture_energy, double horizon) {
     struct kr_material m = {
@@ -60,20 +76,16 @@ struct kr_material kr_material_make(const struct kr_law *law, int model, double 
         .density = density,
         .fracture_energy = fracture_energy,
         .horizon = horizon,
-        .micromodulus = models[model].micromodulus * youngs_modulus / (M_PI * pow(horizon, 3)),
-        .critical_stretch = INFINITY,
     };
-    if (fracture_energy > 0) {
-        double linear =
-            sqrt(models[model].stretch * M_PI * fracture_energy / (youngs_modulus * horizon));
-        m.critical_stretch = stretch_at(law, 0.5 * linear * linear);
-    }
+    kr_material_profile(&m, KR_CONSTANT);
     return m;
 }
 
 struct kr_material kr_material_of(const struct kr_case *c) {
     const struct kr_law *law = kr_law_named(c->law);
     kr_assert(law); /* kr_case_check has seen to it */
-    return kr_material_make(law, c->model, c->youngs_modulus, c->density, c->fracture_energy,
-                            c->horizon);
+    struct kr_material m = kr_material_make(law, c->model, c->youngs_modulus, c->density,
+                                            c->fracture_energy, c->horizon);
+    kr_material_profile(&m, c->micromodulus);
+    return m;
 }

@@ -153,10 +153,11 @@ static const struct row {
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_word_near", "model: plane-stress", "model: plane-strss", NULL, NULL,
      "case.yaml:17:10: material.model: found 'plane-strss', expected one of plane-stress, "
-     "plane-strain; did you mean 'plane-stress'?\n"
+     "plane-strain, solid; did you mean 'plane-stress'?\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_word_far", "model: plane-stress", "model: thick", NULL, NULL,
-     "case.yaml:17:10: material.model: found 'thick', expected one of plane-stress, plane-strain\n"
+     "case.yaml:17:10: material.model: found 'thick', expected one of plane-stress, plane-strain, "
+     "solid\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_vector_too_short", "centre: [10 mm, 12.5 mm]", "centre: [10 mm]", NULL, NULL,
      "case.yaml:6:17: geometry.holes.0.centre: found a list of 1, expected a list of 2, each a "
@@ -220,7 +221,7 @@ static const struct row {
      "position 6\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_formula_with_a_comma_unquoted", "[free, 6 MPa]", "[free, 6*min(t, 1) MPa]", NULL, NULL,
-     "case.yaml:24:27: loads.0.traction: found a list of 3, expected a list of at most 2, each an "
+     "case.yaml:24:27: loads.0.traction: found a list of 3, expected a list of at most 3, each an "
      "expression in x, y, z, t and then a stress in MPa, or 'free'; put an expression with commas "
      "in quotes\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
@@ -232,8 +233,26 @@ static const struct row {
      "not; '==' compares\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_formula_in_no_list", "[free, 6 MPa]", "6 MPa", NULL, NULL,
-     "case.yaml:24:26: loads.0.traction: found '6 MPa', expected a list of at most 2, each an "
+     "case.yaml:24:26: loads.0.traction: found '6 MPa', expected a list of at most 3, each an "
      "expression in x, y, z, t and then a stress in MPa, or 'free'\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_solid_load_on_a_plate", "[free, 6 MPa]", "[free, 6 MPa, 0 MPa]", NULL, NULL,
+     "case.yaml:24:27: loads.0.traction: found 3 components, expected 2: the model is a plate; "
+     "material.model: solid has three\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_load_of_one_component", "[free, 6 MPa]", "[6 MPa]", NULL, NULL,
+     "case.yaml:24:27: loads.0.traction: found 1 component, expected 2: the model is a plate; "
+     "material.model: solid has three\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_solid_with_loads_of_a_plate", "model: plane-stress", "model: solid", NULL,
+     "cracks.precracks=[]",
+     "case.yaml:24:27: loads.0.traction: found 2 components, expected 3: the model is solid\n"
+     "case.yaml:25:30: loads.1.velocity: found 2 components, expected 3: the model is solid\n"
+     "kirsch: 2 faults in case.yaml; nothing was done\n"},
+    {"deck_solid_box_on_a_plate", "{within: 0.3 mm, of: top}",
+     "{lower: [0 mm, 0 mm, 0 mm], upper: [1 mm, 1 mm, 1 mm]}", NULL, NULL,
+     "case.yaml:14:19: nodes.sets.top.lower: found 3 components, expected 2: the model is a plate; "
+     "material.model: solid has three\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_load_of_two_kinds", "traction: [free, 6 MPa]",
      "traction: [free, 6 MPa], velocity: [free, 3 m/s]", NULL, NULL,

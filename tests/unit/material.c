@@ -27,6 +27,37 @@ static void test_material_in_plane_strain(void **state) {
     kr_check_near(m.poissons_ratio, 0.25, 0);
 }
 
+static void test_material_of_a_solid(void **state) {
+    struct kr_material m = kr_material_make(kr_law_named("pmb"), KR_SOLID, 72.3e9, 2440, 135, 1.27e-3);
+    (void)state;
+    kr_check_near(m.critical_stretch / sqrt(5 * 135 / (6 * 72.3e9 * 1.27e-3)), 1, 1e-14);
+    kr_check_near(m.micromodulus / (12 * 72.3e9 / (M_PI * pow(1.27e-3, 4))), 1, 1e-14);
+    kr_check_near(m.poissons_ratio, 0.25, 0);
+}
+
+/* Four and five times the constant one, and s0 by the roots that the hand gives. */
+static void test_material_solid_and_plate_with_a_cone(void **state) {
+    static const struct {
+        int model;
+        double times, stretch; /* s0^2 E delta/G0 */
+    } rows[] = {{KR_PLANE_STRESS, 4, 5 * M_PI / 9},
+                {KR_PLANE_STRAIN, 4, 25 * M_PI / 48},
+                {KR_SOLID, 5, 1}};
+    (void)state;
+    for (size_t k = 0; k < 3; k++) {
+        struct kr_material m =
+            kr_material_make(kr_law_named("pmb"), rows[k].model, 72.3e9, 2440, 135, 1.27e-3);
+        double constant = m.micromodulus;
+        kr_check_near(kr_material_micromodulus(&m, 1.2e-3), constant, 0);
+        kr_material_profile(&m, KR_CONICAL);
+        kr_check_near(m.micromodulus / constant, rows[k].times, 1e-14);
+        kr_check_near(m.critical_stretch * m.critical_stretch * 72.3e9 * 1.27e-3 / 135,
+                      rows[k].stretch, 1e-14);
+        kr_check_near(kr_material_micromodulus(&m, 0.25 * 1.27e-3) / m.micromodulus, 0.75, 1e-15);
+        kr_check_near(kr_material_micromodulus(&m, 1.3e-3), 0, 0);
+    }
+}
+
 static void test_material_without_fracture_energy_holds(void **state) {
     struct kr_material m = kr_material_make(kr_laws[0], KR_PLANE_STRESS, 3.1e9, 1130, 0, 0.3e-3);
     (void)state;
@@ -56,6 +87,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_material_of_the_paper),
         cmocka_unit_test(test_material_in_plane_strain),
+        cmocka_unit_test(test_material_of_a_solid),
+        cmocka_unit_test(test_material_solid_and_plate_with_a_cone),
         cmocka_unit_test(test_material_without_fracture_energy_holds),
         cmocka_unit_test(test_every_law_is_one),
     };

@@ -60,7 +60,7 @@ static struct kr_nodes *make_nodes(void) {
     add_set(nodes, "third", 1, 3, 0.959e-3);
     add_set(nodes, "nobody", nodes->n, 1, 0);
     nodes->made_for =
-        (struct kr_nodes_made_for){0.41e-3, "plane-strain", "hhb", "energy", "isotropic"};
+        (struct kr_nodes_made_for){0.41e-3, "plane-strain", "conical", "hhb", "energy", "isotropic"};
     return nodes;
 }
 
@@ -77,6 +77,7 @@ static void check_same(const struct kr_nodes *a, const struct kr_nodes *b) {
     assert_memory_equal(a->first, b->first, (a->n + 1) * sizeof(int64_t));
     assert_memory_equal(a->vertex, b->vertex, (size_t)a->first[a->n] * sizeof(int64_t));
     assert_string_equal(a->made_for.model, b->made_for.model);
+    assert_string_equal(a->made_for.micromodulus, b->made_for.micromodulus);
     assert_string_equal(a->made_for.deformation, b->made_for.deformation);
     for (size_t s = 0; s < a->n_sets; s++) {
         const struct kr_set *set = kr_nodes_set(b, a->set[s].name);
