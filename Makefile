@@ -6,6 +6,7 @@
 #   make bench      measure the speed; writes build/bench.csv
 #   make deps       list what the system lacks and install it (Debian; sudo where not root)
 #   make corrections  write docs/corrections.md anew: all partial volumes with all surface corrections
+#   make pores-500  mesh 500 random fields of 30 pores (GRID=, SEEDS=, PORES=, SPACING= in mm)
 #   make docs       write docs/deck.md anew from the table that reads the deck
 #   make format     clang-format the sources
 #   make install    PREFIX=/usr/local
@@ -48,12 +49,13 @@ scripts    := $(patsubst %,$(BUILD)/%,$(notdir $(wildcard pre/*.py post/*.py)))
 
 # The bond loop is built once for each kind of processor and chosen at run time.
 kernels    := $(if $(wildcard solver/kernel.c),baseline $(if $(filter x86_64,$(shell uname -m)),avx2 avx512))
-kernel_o   := $(patsubst %,$(BUILD)/solver/kernel_%.o,$(kernels))
+kernel_o   := $(foreach k,$(kernels),$(BUILD)/solver/kernel_$(k).o $(BUILD)/solver/kernel_$(k)_mixed.o)
 KERNEL_baseline :=
 KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
+$(foreach k,$(kernels),$(eval KERNEL_$(k)_mixed := $(KERNEL_$(k)) -DKR_FLOAT))
 
-.PHONY: FORCE all help demo test bench deps corrections docs format install clean check-deps
+.PHONY: FORCE all help demo test bench deps corrections pores-500 docs format install clean check-deps
 all: check-deps $(programs) $(scripts)
 
 help:
@@ -107,6 +109,10 @@ $(BUILD)/tests/%: tests/%.c tests/test.h $(BUILD)/libkirsch.a
 	@echo "  test  $<"
 	$(Q)$(CC) $(ALL_FLAGS) -Itests $< $(BUILD)/libkirsch.a $(LIBS) -lmetis -lcmocka -o $@
 
+$(BUILD)/fields: $(BUILD)/cases/pores-500/fields.o $(BUILD)/libkirsch.a
+	@echo "  link  $(@F)"
+	$(Q)$(CC) $(CFLAGS) -fopenmp $^ $(LIBS) -o $@
+
 $(BUILD)/corrections: $(BUILD)/cases/corrections/corrections.o $(BUILD)/libkirsch.a
 	@echo "  link  $(@F)"
 	$(Q)$(CC) $(CFLAGS) -fopenmp $^ $(LIBS) -o $@
@@ -122,10 +128,15 @@ test: deps
 
 bench: deps
 	@$(MAKE) --no-print-directory all
-	@$(BUILD)/kirsch-bench $(BUILD)/bench.csv
+	@tests/deps install lammps
+	@OMP_NUM_THREADS=1 lmp -in cases/bench/lammps_pmb.in -log $(BUILD)/lammps.log -screen none || true
+	@$(BUILD)/kirsch-bench $(BUILD)/bench.csv $(BUILD)/lammps.log
 
 corrections: all $(BUILD)/corrections
 	@BUILD=$(BUILD) cases/corrections/table
+
+pores-500: all $(BUILD)/fields
+	@$(BUILD)/fields $(or $(GRID),near-boundary) 1 $(or $(SEEDS),500) $(or $(PORES),30) $(or $(SPACING),0.25)
 
 docs: all
 	@$(BUILD)/kirsch --deck-reference > docs/deck.md
@@ -142,4 +153,4 @@ clean:
 	rm -rf $(BUILD)
 
 -include $(library_o:.o=.d) $(kernel_o:.o=.d) $(patsubst %.c,$(BUILD)/%.d,$(programs_c)) $(tests:=.d) \
-         $(BUILD)/cases/corrections/corrections.d
+         $(BUILD)/cases/corrections/corrections.d $(BUILD)/cases/pores-500/fields.d

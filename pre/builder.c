@@ -77,6 +77,8 @@ static void add_group(struct kr_builder *builder, const char *name, int dim, siz
 }
 
 void kr_builder_group_edges(struct kr_builder *builder, const char *name) {
+    if (builder->grouped_edges == builder->mesh->n_edges)
+        return;
     add_group(builder, name, 1, builder->grouped_edges, builder->mesh->n_edges);
     builder->grouped_edges = builder->mesh->n_edges;
 }

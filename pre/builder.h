@@ -36,7 +36,8 @@ void kr_builder_square(struct kr_builder *builder, size_t i, size_t j);
 /** A boundary edge, the body on its left. */
 void kr_builder_edge(struct kr_builder *builder, size_t from, size_t to);
 
-/** Name the edges added since the last call. The name is copied. */
+/** Name the edges added since the last call; without any there is no such group. The name is
+ *  copied. */
 void kr_builder_group_edges(struct kr_builder *builder, const char *name);
 
 /** Number the cells, group them all as `plate`, check the whole structure and hand over the mesh.

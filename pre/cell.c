@@ -87,7 +87,23 @@ static void add_face(size_t n, const double *point, double sum[4]) {
         add_triangle(middle, point + 3 * k, point + 3 * (k + 1 < n ? k + 1 : 0), sum);
 }
 
+/** The tetrahedra of a polyhedron, taken together. */
+static double pieces(size_t n, const double *point, double centroid[3]) {
+    double volume = 0, moment[3] = {0}, middle[3];
+    for (size_t k = 0; k < n; k += 4) {
+        double part = kr_cell_solid(4, point + 3 * k, middle);
+        volume += part;
+        for (int d = 0; d < 3; d++)
+            moment[d] += part * (middle[d] - point[d]);
+    }
+    for (int d = 0; d < 3; d++)
+        centroid[d] = point[d] + (volume == 0 ? 0 : moment[d] / volume);
+    return volume;
+}
+
 double kr_cell_solid(size_t n, const double *point, double centroid[3]) {
+    if (kr_solid_is_pieces(n))
+        return pieces(n, point, centroid);
     const struct kr_solid *solid = kr_solid(n);
     double local[3 * 20], face[3 * KR_MOST_FACE], sum[4] = {0}, mean[3] = {0};
     size_t number[20], vertex[KR_MOST_FACE];

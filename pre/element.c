@@ -67,6 +67,11 @@ const struct kr_solid *kr_solid(size_t vertices) {
     return NULL;
 }
 
+size_t kr_solid_n_faces(size_t vertices) {
+    const struct kr_solid *solid = kr_solid(vertices);
+    return solid ? solid->n_faces : kr_solid_is_pieces(vertices) ? vertices : 0;
+}
+
 /** The vertex in the middle of the edge between two corners. */
 static size_t middle_of(const struct kr_solid *solid, const size_t *cell, int a, int b) {
     size_t k = 0;
@@ -77,6 +82,8 @@ static size_t middle_of(const struct kr_solid *solid, const size_t *cell, int a,
 }
 
 size_t kr_solid_face(size_t n, const size_t *cell, size_t face, size_t *vertex) {
+    if (kr_solid_is_pieces(n))
+        return kr_solid_face(4, cell + 4 * (face / 4), face % 4, vertex);
     const struct kr_solid *solid = kr_solid(n);
     const unsigned char *corner = solid->face[face];
     size_t corners = solid->face_corners[face], count = 0;

@@ -8,7 +8,9 @@
  *
  *    2D  polygon, counter-clockwise; nodes in the middle of sides are corners like all others
  *    3D  4 or 10 tetrahedron, 5 or 13 pyramid, 6 or 15 wedge, 8 or 20 hexahedron; corners first,
- *        then the middles of the edges, both in the order of VTK
+ *        then the middles of the edges, both in the order of VTK;
+ *        24 or more, a multiple of 4: a polyhedron, cut into so many tetrahedra, one after the
+ *        other (where fewer would do, one is cut in four about its middle)
  *
  * Nodes inside faces or cells (quadrilaterals of 9 nodes, hexahedra of 27, ...) are left out.
  */
@@ -45,11 +47,20 @@ struct kr_solid {
 /** The shape of a solid with so many vertices; NULL if there is none. */
 const struct kr_solid *kr_solid(size_t vertices);
 
+/** Whether a cell of so many vertices is a polyhedron given as its tetrahedra. */
+static inline int kr_solid_is_pieces(size_t vertices) {
+    return vertices >= 24 && vertices % 4 == 0;
+}
+
+/** Number of faces of a solid with so many vertices, 0 if there is no such solid. A polyhedron has
+ *  those of its tetrahedra: the ones inside it twice, in opposite senses. */
+size_t kr_solid_n_faces(size_t vertices);
+
 /** Vertices of a face of a solid cell, seen counter-clockwise from outside, with the middles of its
  *  edges between the corners. A corner that repeats the one before is left out.
  *
  *  in   n, cell   the cell's vertices
- *  in   face      below n_faces of its shape
+ *  in   face      below kr_solid_n_faces
  *  out  vertex    up to KR_MOST_FACE
  *  returns their number; less than 3: the face has collapsed
  */

@@ -23,7 +23,7 @@ size_t kr_faces_vertices(const struct kr_faces *faces, struct kr_face face, size
 static void pass_over(struct kr_faces *faces, size_t *filled) {
     const struct kr_mesh *mesh = faces->mesh;
     for (size_t c = 0; c < mesh->n_cells; c++) {
-        size_t shapes = kr_solid(mesh->first[c + 1] - mesh->first[c])->n_faces;
+        size_t shapes = kr_solid_n_faces(mesh->first[c + 1] - mesh->first[c]);
         for (size_t f = 0; f < shapes; f++) {
             size_t vertex[KR_MOST_FACE];
             struct kr_face face = {c, f};

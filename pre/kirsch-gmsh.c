@@ -11,11 +11,15 @@
  * With three arguments, FROM TO.msh SIZE, it meshes a body of CAD (STEP, IGES, BREP; lengths are
  * turned into metres) with cells of that size and writes MSH 4.1. The body becomes the group `body`,
  * each curve (2D) or surface (3D) of its boundary a group `side_N`, N as gmsh shows it.
+ *
+ * With `--curves FROM` it tells the curves around each plane face of such a file (cad.h).
  */
 #include <gmshc.h>
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 /** What a request asks for, its loops aside. */
@@ -219,8 +223,105 @@ static void mesh_body(const char *from, const char *to, double size) {
     called("writing the mesh");
 }
 
+/** One curve: points evenly in its parameter, and derivatives. Millimetres become metres. */
+static void tell_curve(FILE *file, int tag, const char *kind, int points, double *low_z,
+                       double *high_z) {
+    double *least, *most, *at, *along, *parameter = room((size_t)points, sizeof *parameter);
+    size_t n;
+    gmshModelGetParametrizationBounds(1, tag, &least, &n, &most, &n, &trouble);
+    called("the range of a curve");
+    for (int k = 0; k < points; k++)
+        parameter[k] = least[0] + (most[0] - least[0]) * k / (points - 1);
+    gmshModelGetValue(1, tag, parameter, (size_t)points, &at, &n, &trouble);
+    called("points of a curve");
+    gmshModelGetDerivative(1, tag, parameter, (size_t)points, &along, &n, &trouble);
+    called("directions of a curve");
+    fprintf(file, "curve %s %d %.17g\n", kind, points, most[0] - least[0]);
+    for (int k = 0; k < points; k++) {
+        *low_z = fmin(*low_z, at[3 * k + 2]);
+        *high_z = fmax(*high_z, at[3 * k + 2]);
+        fprintf(file, "%.17g %.17g %.17g %.17g\n", at[3 * k] / 1e3, at[3 * k + 1] / 1e3,
+                along[3 * k] / 1e3, along[3 * k + 1] / 1e3);
+    }
+    gmshFree(least);
+    gmshFree(most);
+    gmshFree(at);
+    gmshFree(along);
+    free(parameter);
+}
+
+static void tell_face(FILE *file, int face, double *low_z, double *high_z) {
+    int pair[2] = {2, face}, *edge;
+    size_t n;
+    gmshModelGetBoundary(pair, 2, &edge, &n, 0, 0, 0, &trouble);
+    called("the edges of a face");
+    fprintf(file, "face %zu\n", n / 2);
+    for (size_t k = 0; k < n / 2; k++) {
+        char *kind;
+        gmshModelGetType(1, edge[2 * k + 1], &kind, &trouble);
+        called("the kind of a curve");
+        if (!strcmp(kind, "Line"))
+            tell_curve(file, edge[2 * k + 1], "line", 2, low_z, high_z);
+        else if (!strcmp(kind, "Circle") || !strcmp(kind, "Ellipse"))
+            tell_curve(file, edge[2 * k + 1], "round", 3, low_z, high_z);
+        else
+            tell_curve(file, edge[2 * k + 1], "other", 257, low_z, high_z);
+        gmshFree(kind);
+    }
+    gmshFree(edge);
+}
+
+/** The curves around the faces of a file of CAD; see cad.h. */
+static void tell_curves(const char *from, FILE *file) {
+    int *face, *solid;
+    size_t n, n_solids;
+    double low_z = INFINITY, high_z = -INFINITY, size = 0;
+    set("General.Terminal", 1);
+    set("General.Verbosity", 2);
+    set("General.AbortOnError", 0);
+    gmshOptionSetString("Geometry.OCCTargetUnit", "MM", &trouble);
+    called("the unit");
+    gmshOpen(from, &trouble);
+    called("reading the file");
+    gmshModelGetEntities(&solid, &n_solids, 3, &trouble);
+    gmshModelGetEntities(&face, &n, 2, &trouble);
+    called("the faces");
+    if (n_solids)
+        fail("the file holds a solid, where an outline is a plane face in a plane of constant z; "
+             "export the face alone");
+    if (!n)
+        fail("the file holds no face, where an outline is a plane face in a plane of constant z; a "
+             "closed line alone is none");
+    fprintf(file, "faces %zu\n", n / 2);
+    for (size_t k = 0; k < n / 2; k++) {
+        double box[6];
+        gmshModelGetBoundingBox(2, face[2 * k + 1], &box[0], &box[1], &box[2], &box[3], &box[4],
+                                &box[5], &trouble);
+        called("the size of a face");
+        size = fmax(size, fmax(box[3] - box[0], box[4] - box[1]));
+        tell_face(file, face[2 * k + 1], &low_z, &high_z);
+    }
+    if (!(high_z - low_z <= 1e-6 * size))
+        fail("the face does not lie in a plane of constant z; turn it into the plane of x and y");
+    fprintf(file, "end\n");
+    gmshFree(face);
+    gmshFree(solid);
+}
+
 int main(int argc, char **argv) {
     struct order order;
+    if (argc == 3 && !strcmp(argv[1], "--curves")) {
+        FILE *file = fdopen(dup(1), "w");
+        if (!file || dup2(2, 1) < 0)
+            fail("no standard output");
+        gmshInitialize(0, NULL, 0, &trouble);
+        called("starting gmsh");
+        tell_curves(argv[2], file);
+        if (fclose(file))
+            fail("the curves cannot be written");
+        fflush(NULL);
+        _exit(0);
+    }
     if (argc == 4) {
         gmshInitialize(0, NULL, 0, &trouble);
         called("starting gmsh");

@@ -4,21 +4,59 @@
  */
 #include "base/error.h"
 #include "base/memory.h"
+#include "block.h"
 #include "case.h"
 #include "mesh.h"
 #include "pieces.h"
 #include "plate.h"
 #include "quality.h"
+#include "quality_solid.h"
 
 static const char usage[] =
     "kirsch-mesh case.yaml\n"
     "\n"
     "Meshes the plate of a case and writes plate.msh (gmsh MSH 4.1) into the case's folder.";
 
+/** A path of the deck, seen from the deck's folder; NULL for none. Owned by the caller. */
+static char *path_of(const struct kr_deck *deck, const char *file) {
+    if (!file || !*file)
+        return NULL;
+    return file[0] == '/' ? kr_text_copy(file) : kr_text("%s/%s", kr_deck_folder(deck), file);
+}
+
+static struct kr_mesh *mesh_plate(const struct kr_plate *plate) {
+    struct kr_plate_report report;
+    struct kr_mesh *mesh = kr_plate_mesh(plate, &report);
+    kr_quality_print(mesh, plate, &report);
+    kr_plate_report_free(&report);
+    return mesh;
+}
+
+static struct kr_mesh *mesh_block(const struct kr_plate *plate, const struct kr_case *c,
+                                  const struct kr_deck *deck) {
+    struct kr_case_void *hollow = KR_NEW(struct kr_case_void, c->voids.count);
+    struct kr_case_stl body = c->body;
+    struct kr_block block = {*plate, c->depth, c->voids.count, hollow, NULL};
+    struct kr_block_report report;
+    body.file = path_of(deck, c->body.file);
+    block.body = body.file ? &body : NULL;
+    for (size_t k = 0; k < c->voids.count; k++) {
+        hollow[k] = ((const struct kr_case_void *)c->voids.item)[k];
+        hollow[k].file = path_of(deck, hollow[k].file);
+    }
+    struct kr_mesh *mesh = kr_block_mesh(&block, &report);
+    kr_quality_solid_print(mesh, &block, &report);
+    kr_block_report_free(&report);
+    for (size_t k = 0; k < c->voids.count; k++)
+        kr_free((char *)hollow[k].file);
+    kr_free((char *)body.file);
+    kr_free(hollow);
+    return mesh;
+}
+
 int main(int argc, char **argv) {
     struct kr_case_arguments arguments;
     struct kr_case c;
-    struct kr_plate_report report;
     kr_error_program("kirsch-mesh");
     kr_case_arguments(argc, argv, usage, &arguments);
     if (arguments.n_left)
@@ -41,16 +79,14 @@ int main(int argc, char **argv) {
     }
     struct kr_case_hole *hole = kr_case_holes(&c, &plate.n_holes);
     plate.hole = hole;
-    struct kr_mesh *mesh = kr_plate_mesh(&plate, &report);
+    struct kr_mesh *mesh = c.depth > 0 ? mesh_block(&plate, &c, deck) : mesh_plate(&plate);
     char *path = kr_case_file(&c, "plate.msh");
-    kr_quality_print(mesh, &plate, &report);
     kr_pieces_cut(mesh);
     kr_mesh_write_msh(mesh, path);
     kr_say("  wrote %s", path);
 
     kr_free(path);
     kr_mesh_free(mesh);
-    kr_plate_report_free(&report);
     kr_free(hole);
     kr_deck_close(deck);
     kr_free(arguments.set);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * kirsch-pores: random pores for a plate.
+ * kirsch-pores: random pores for a plate, or those of a file.
  */
 #include "base/error.h"
 #include "base/memory.h"
@@ -14,54 +14,101 @@
 static const char usage[] =
     "kirsch-pores case.yaml\n"
     "\n"
-    "Places the random pores of the deck's geometry.pores and writes pores.txt into the case's\n"
-    "folder. The same seed gives the same pores everywhere.";
+    "Places the random pores of the deck's geometry.pores, or takes those of its file, and writes\n"
+    "pores.txt into the case's folder. The same seed gives the same pores everywhere.";
 
-static double porosity_of(const struct kr_case *c, const struct kr_case_hole *hole, size_t count) {
-    double area = 0;
-    for (size_t k = 0; k < count; k++)
-        area += M_PI * hole[k].radius * hole[k].radius;
-    return area / (c->width * c->height);
+/** "30 pores, seed 3, radius ...": the rules, for the first line of the file. */
+static char *rules_of(const struct kr_case *c) {
+    const struct kr_case_pores *p = &c->pores;
+    char word[32];
+    if (p->file && *p->file)
+        return kr_text("# x y radius [m]; from %s\n",
+                       strrchr(p->file, '/') ? strrchr(p->file, '/') + 1 : p->file);
+    kr_case_word(KR_DISTRIBUTION_WORDS, p->distribution, word);
+    char *sizes = p->distribution == KR_UNIFORM
+                      ? kr_text("%s", "")
+                  : p->distribution == KR_BY_AREA
+                      ? kr_text(" %s", word)
+                      : kr_text(" %s of mean %g m, deviation %g m", word, p->mean, p->deviation);
+    char *rules =
+        kr_text("# x y %s [m]; seed %lld, radius %g to %g m%s, %g diameters from the edges, gap %g "
+                "m\n",
+                p->shape == KR_PORE_CIRCLE ? "radius" : "long short, degrees", (long long)p->seed,
+                p->radius[0], p->radius[1], sizes, p->edge_diameters, p->gap);
+    kr_free(sizes);
+    return rules;
 }
 
-static void write_pores(const struct kr_case *c, const struct kr_case_hole *hole,
+static void write_hole(FILE *file, const struct kr_case_hole *hole) {
+    fprintf(file, "%.9f %.9f ", hole->centre[0], hole->centre[1]);
+    if (hole->shape == KR_HOLE_CIRCLE)
+        fprintf(file, "%.9f\n", hole->radius);
+    else
+        fprintf(file, "%.9f %.9f %.3f\n", hole->radii[0], hole->radii[1],
+                hole->angle * 180 / M_PI);
+}
+
+static void write_pores(const struct kr_case *c, const struct kr_case_hole *hole, size_t n,
                         const char *path) {
-    const struct kr_case_pores *p = &c->pores;
-    char *beside = kr_text("%s.tmp", path);
+    char *beside = kr_text("%s.tmp", path), *rules = rules_of(c);
     FILE *file = fopen(beside, "w");
     if (!file)
         kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", beside, strerror(errno));
-    fprintf(
-        file,
-        "# x y radius [m]; seed %lld, radius %g to %g m, %g diameters from the edges, gap %g m\n",
-        (long long)p->seed, p->radius[0], p->radius[1], p->edge_diameters, p->gap);
-    for (int64_t k = 0; k < p->count; k++)
-        fprintf(file, "%.9f %.9f %.9f\n", hole[k].centre[0], hole[k].centre[1], hole[k].radius);
+    fputs(rules, file);
+    for (size_t k = 0; k < n; k++)
+        write_hole(file, &hole[k]);
     int failed = ferror(file) | fclose(file);
     if (failed || rename(beside, path))
         kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s; free some space and run again", path,
                 strerror(errno));
     kr_free(beside);
+    kr_free(rules);
 }
 
-static void make_pores(struct kr_deck *deck, const struct kr_case *c) {
-    struct kr_case_hole *hole = KR_NEW(struct kr_case_hole, (size_t)c->pores.count);
-    int64_t throws;
-    size_t placed = kr_pores_throw(c, hole, &throws);
-    if (placed < (size_t)c->pores.count)
-        kr_stop(
-            KR_EXIT_INPUT,
-            "%s: only %zu of %lld pores found a place in %lld throws (porosity %.1f %%); ask for "
-            "fewer or smaller pores, a smaller gap or edge_diameters, another seed, or allow more "
-            "attempts",
-            kr_deck_where(deck, &c->pores.count), placed, (long long)c->pores.count,
-            (long long)throws, 100 * porosity_of(c, hole, placed));
-    char *path = kr_case_file(c, "pores.txt");
-    write_pores(c, hole, path);
-    kr_say("  %zu pores in %lld throws, porosity %.2f %%", placed, (long long)throws,
-           100 * porosity_of(c, hole, placed));
-    kr_say("  wrote %s", path);
-    kr_free(path);
+/** What to relax, in the order of what helps most. */
+static const char *cure_of(const struct kr_case *c) {
+    const struct kr_case_pores *p = &c->pores;
+    if (2 * (2 * p->edge_diameters * p->radius[0]) > fmin(c->width, c->height))
+        return "edge_diameters alone keeps even the smallest pore from the plate: lower it";
+    return "ask for fewer or smaller pores, a smaller gap or edge_diameters, another seed, or allow "
+           "more attempts";
+}
+
+static void stop_short(struct kr_deck *deck, const struct kr_case *c, const struct kr_pores *got) {
+    double porosity = 100 * got->area / got->outline;
+    if (c->pores.count)
+        kr_stop(KR_EXIT_INPUT,
+                "%s: only %zu of %zu pores found a place in %lld throws (porosity %.1f %%); %s",
+                kr_deck_where(deck, &c->pores.count), got->placed, got->wanted,
+                (long long)got->throws, porosity, cure_of(c));
+    kr_stop(KR_EXIT_INPUT,
+            "%s: only %zu of %zu pores found a place in %lld throws: a porosity of %.2f %% instead "
+            "of %.2f %%; %s",
+            kr_deck_where(deck, &c->pores.porosity), got->placed, got->wanted,
+            (long long)got->throws, porosity, 100 * c->pores.porosity, cure_of(c));
+}
+
+static void make_pores(struct kr_deck *deck, const struct kr_case *c, const char *path) {
+    struct kr_pores pores = kr_pores_throw(c);
+    if (pores.placed < pores.wanted)
+        stop_short(deck, c, &pores);
+    if (c->pores.porosity > 0 && !pores.wanted)
+        kr_stop(KR_EXIT_INPUT,
+                "%s: %g %% of the outline is less than half of one pore of the least radius",
+                kr_deck_where(deck, &c->pores.porosity), 100 * c->pores.porosity);
+    write_pores(c, pores.hole, pores.placed, path);
+    kr_say("  %zu pores in %lld throws, porosity %.2f %%", pores.placed, (long long)pores.throws,
+           100 * pores.area / pores.outline);
+    kr_pores_free(&pores);
+}
+
+static void take_pores(const struct kr_case *c, const char *path) {
+    size_t n;
+    struct kr_case_hole *hole = kr_case_read_pores(c, c->pores.file, &n);
+    if (!n)
+        kr_stop(KR_EXIT_INPUT, "%s holds no pores", c->pores.file);
+    write_pores(c, hole, n, path);
+    kr_say("  %zu pores from %s", n, c->pores.file);
     kr_free(hole);
 }
 
@@ -73,14 +120,24 @@ int main(int argc, char **argv) {
     if (arguments.n_left)
         kr_stop(KR_EXIT_INPUT, "unknown argument '%s'; see kirsch-pores --help", arguments.left[0]);
     struct kr_deck *deck = kr_case_open(&arguments, &c);
-    if (!c.pores.count)
-        kr_stop(KR_EXIT_INPUT, "%s asks for no pores; expected geometry.pores.count above 0",
+    if (!kr_case_has_pores(&c))
+        kr_stop(KR_EXIT_INPUT, "%s asks for no pores; expected geometry.pores with count, porosity or "
+                               "file",
                 arguments.deck);
-    if (arguments.explain)
+    char *path = kr_case_file(&c, "pores.txt");
+    int from_file = c.pores.file && *c.pores.file;
+    if (arguments.explain && from_file)
+        kr_say("would take the pores of %s into %s", c.pores.file, path);
+    else if (arguments.explain)
         kr_say("would throw %lld pores, at most %lld throws, seed %lld", (long long)c.pores.count,
                (long long)c.pores.attempts, (long long)c.pores.seed);
+    else if (from_file)
+        take_pores(&c, path);
     else
-        make_pores(deck, &c);
+        make_pores(deck, &c, path);
+    if (!arguments.explain)
+        kr_say("  wrote %s", path);
+    kr_free(path);
     kr_deck_close(deck);
     kr_free(arguments.set);
     kr_free(arguments.left);

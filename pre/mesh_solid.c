@@ -20,7 +20,7 @@ static char *shapes_fault(const struct kr_mesh *mesh) {
         return kr_text("the mesh has no cells");
     for (size_t c = 0; c < mesh->n_cells; c++) {
         size_t from = mesh->first[c], n = mesh->first[c + 1] - from;
-        if (mesh->first[c + 1] < from || !kr_solid(n))
+        if (mesh->first[c + 1] < from || !kr_solid_n_faces(n))
             return kr_text("cell %lld has %zu vertices, and no solid has so many",
                            (long long)mesh->cell_tag[c], n);
         for (size_t k = from; k < from + n; k++)
@@ -37,11 +37,15 @@ static char *shapes_fault(const struct kr_mesh *mesh) {
 }
 
 double kr_mesh_cell_volume(const struct kr_mesh *mesh, size_t cell, double centroid[3]) {
-    double point[3 * 20];
+    double few[3 * 20] = {0};
     size_t from = mesh->first[cell], n = mesh->first[cell + 1] - from;
+    double *point = n <= 20 ? few : KR_NEW(double, 3 * n);
     for (size_t k = 0; k < n; k++)
         memcpy(point + 3 * k, mesh->point + 3 * mesh->vertex[from + k], 3 * sizeof *point);
-    return kr_cell_solid(n, point, centroid);
+    double volume = kr_cell_solid(n, point, centroid);
+    if (n > 20)
+        kr_free(point);
+    return volume;
 }
 
 /** Largest distance of a cell's vertices from its first one. */

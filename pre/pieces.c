@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "element.h"
 
 #include <math.h>
 #include <string.h>
@@ -54,7 +55,7 @@ static void renumber(const struct rewriting *new, struct kr_mesh_group *group) {
 static void finish(struct rewriting *new, struct kr_mesh *mesh) {
     new->begin[mesh->n_cells] = new->n;
     for (size_t g = 0; g < mesh->n_groups; g++)
-        if (mesh->group[g].dim == 2)
+        if (mesh->group[g].dim == mesh->dim)
             renumber(new, &mesh->group[g]);
     kr_free(mesh->first);
     kr_free(mesh->vertex);
@@ -109,20 +110,38 @@ static size_t best_ear(const struct kr_mesh *mesh, size_t n, const size_t *v) {
     return best;
 }
 
-static void cut_cell(struct rewriting *new, size_t n, size_t *v, int64_t *tag) {
-    while (n > 3) {
-        size_t k = best_ear(new->mesh, n, v);
-        size_t triangle[3] = {v[(k + n - 1) % n], v[k], v[(k + 1) % n]};
-        add_cell(new, 3, triangle, ++*tag);
+void kr_pieces_triangles(const struct kr_mesh *mesh, size_t n, size_t *v, size_t *triangle) {
+    for (; n > 3; n--) {
+        size_t k = best_ear(mesh, n, v);
+        *triangle++ = v[(k + n - 1) % n];
+        *triangle++ = v[k];
+        *triangle++ = v[(k + 1) % n];
         memmove(v + k, v + k + 1, (n - k - 1) * sizeof *v);
-        n--;
     }
-    add_cell(new, 3, v, ++*tag);
+    memcpy(triangle, v, 3 * sizeof *v);
+}
+
+static void cut_cell(struct rewriting *new, size_t n, size_t *v, int64_t *tag) {
+    size_t *triangle = KR_NEW(size_t, 3 * (n - 2));
+    kr_pieces_triangles(new->mesh, n, v, triangle);
+    for (size_t k = 0; k < n - 2; k++)
+        add_cell(new, 3, triangle + 3 * k, ++*tag);
+    kr_free(triangle);
+}
+
+static void cut_solid(struct rewriting *new, size_t n, const size_t *v, int64_t *tag) {
+    for (size_t k = 0; k < n; k += 4)
+        add_cell(new, 4, v + k, ++*tag);
+}
+
+/** Whether a file has no kind of its own for a cell of n vertices. */
+static int is_cut(const struct kr_mesh *mesh, size_t n) {
+    return mesh->dim == 2 ? n > 4 : kr_solid_is_pieces(n);
 }
 
 static int has_polygons(const struct kr_mesh *mesh) {
     for (size_t c = 0; c < mesh->n_cells; c++)
-        if (mesh->first[c + 1] - mesh->first[c] > 4)
+        if (is_cut(mesh, mesh->first[c + 1] - mesh->first[c]))
             return 1;
     return 0;
 }
@@ -143,14 +162,17 @@ void kr_pieces_cut(struct kr_mesh *mesh) {
     for (size_t c = 0; c < mesh->n_cells; c++) {
         size_t n = mesh->first[c + 1] - mesh->first[c];
         new.begin[c] = new.n;
-        if (n <= 4) {
+        if (!is_cut(mesh, n)) {
             add_cell(&new, n, mesh->vertex + mesh->first[c], ++tag);
             continue;
         }
         vertex = kr_realloc(vertex, n, sizeof *vertex);
         memcpy(vertex, mesh->vertex + mesh->first[c], n * sizeof *vertex);
         tag++; /* the gap */
-        cut_cell(&new, n, vertex, &tag);
+        if (mesh->dim == 2)
+            cut_cell(&new, n, vertex, &tag);
+        else
+            cut_solid(&new, n, vertex, &tag);
         for (size_t k = new.begin[c]; k < new.n; k++) {
             KR_GROW(piece, n_pieces, room);
             piece[n_pieces++] = k;
@@ -159,8 +181,8 @@ void kr_pieces_cut(struct kr_mesh *mesh) {
     finish(&new, mesh);
     kr_free(vertex);
     mesh->group = kr_realloc(mesh->group, mesh->n_groups + 1, sizeof *mesh->group);
-    mesh->group[mesh->n_groups] = (struct kr_mesh_group){kr_text_copy(KR_PIECES_GROUP), 2,
-                                                         free_tag(mesh), n_pieces, piece};
+    mesh->group[mesh->n_groups] = (struct kr_mesh_group){
+        kr_text_copy(KR_PIECES_GROUP), mesh->dim, free_tag(mesh), n_pieces, piece};
     mesh->n_groups++;
 }
 
@@ -206,10 +228,21 @@ static void drop_group(struct kr_mesh *mesh, const struct kr_mesh_group *group) 
     mesh->n_groups--;
 }
 
+/** The vertices of the solids from c up to, not with, `end`, one after the other; 0 unless they are
+ *  the tetrahedra of a polyhedron. */
+static size_t solids_of(const struct kr_mesh *mesh, size_t c, size_t end, size_t *vertex) {
+    size_t n = mesh->first[end] - mesh->first[c];
+    for (size_t k = c; k < end && end > c + 1; k++)
+        if (mesh->first[k + 1] - mesh->first[k] != 4)
+            return 0;
+    memcpy(vertex, mesh->vertex + mesh->first[c], n * sizeof *vertex);
+    return end == c + 1 || kr_solid_is_pieces(n) ? n : 0;
+}
+
 void kr_pieces_join(struct kr_mesh *mesh, const char *path) {
-    const struct kr_mesh_group *group = kr_mesh_group(mesh, KR_PIECES_GROUP, 2);
+    const struct kr_mesh_group *group = kr_mesh_group(mesh, KR_PIECES_GROUP, mesh->dim);
     size_t k = 0, *ring = NULL;
-    if (!group || mesh->dim != 2)
+    if (!group)
         return;
     struct rewriting new = begin(mesh);
     for (size_t c = 0, end; c < mesh->n_cells; c = end) {
@@ -220,10 +253,11 @@ void kr_pieces_join(struct kr_mesh *mesh, const char *path) {
                 end++;
         }
         ring = kr_realloc(ring, mesh->first[end] - mesh->first[c], sizeof *ring);
-        size_t n = ring_around(mesh, c, end, ring);
+        size_t n = mesh->dim == 2 ? ring_around(mesh, c, end, ring) : solids_of(mesh, c, end, ring);
         if (!n)
-            kr_stop(KR_EXIT_INPUT, "%s: the pieces %lld to %lld bound no simple polygon", path,
-                    (long long)mesh->cell_tag[c], (long long)mesh->cell_tag[end - 1]);
+            kr_stop(KR_EXIT_INPUT, "%s: the pieces %lld to %lld %s", path,
+                    (long long)mesh->cell_tag[c], (long long)mesh->cell_tag[end - 1],
+                    mesh->dim == 2 ? "bound no simple polygon" : "are not six tetrahedra or more");
         new.begin[c] = new.n;
         for (size_t old = c + 1; old < end; old++)
             new.begin[old] = new.n + 1; /* gone into the first */
@@ -231,5 +265,5 @@ void kr_pieces_join(struct kr_mesh *mesh, const char *path) {
     }
     finish(&new, mesh);
     kr_free(ring);
-    drop_group(mesh, kr_mesh_group(mesh, KR_PIECES_GROUP, 2));
+    drop_group(mesh, kr_mesh_group(mesh, KR_PIECES_GROUP, mesh->dim));
 }

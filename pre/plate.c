@@ -27,7 +27,7 @@ static double conformity_of(const struct kr_mesh *mesh, const struct kr_plate_bo
     double most = 0;
     for (size_t g = 0; g < body->n_groups; g++) {
         const struct kr_mesh_group *group = kr_mesh_group(mesh, body->group[g], 1);
-        for (size_t k = 0; k < group->count; k++) {
+        for (size_t k = 0; group && k < group->count; k++) {
             const double *p = mesh->point + 3 * mesh->edge[2 * group->member[k]];
             const double *q = mesh->point + 3 * mesh->edge[2 * group->member[k] + 1];
             const double middle[2] = {(p[0] + q[0]) / 2, (p[1] + q[1]) / 2};

@@ -13,8 +13,8 @@
  * theta = 2 pi/n.
  *
  * Cells of the lattice come first, row by row, then each region's. Groups: `left`, `right`,
- * `bottom`, `top` (or `outline` where the plate is no rectangle), `hole_1`, ... (edges) and `plate`
- * (all cells).
+ * `bottom`, `top` (edges on the sides of width by height), `outline` or the names of its parts (all
+ * other edges of the outline), `hole_1`, ... and `plate` (all cells). What has no edge has no group.
  */
 #ifndef KR_PLATE_H
 #define KR_PLATE_H

@@ -16,11 +16,12 @@ struct kr_plate_body {
     struct kr_lattice lattice;
     struct kr_shape exact; /* spacings; the body on the left of every curve */
     size_t n_groups;
-    char **group;     /* names: left, right, bottom, top or outline; then hole_1, hole_2, ... */
+    char **group;     /* names: left, right, bottom, top; what the outline adds; hole_1, ... */
     int first_hole;   /* group of hole_1 */
+    size_t n_holes;   /* the plate's, then the inner edges of CAD faces */
     struct kr_curve *hole;
     int32_t *holder;  /* (lattice cells) 0: the cell's centre is in the body; else 1 + the group of
-                         what holds it: a hole, or the outline where it lies beyond that */
+                         what holds it: a hole, or a part of the outline where it lies beyond */
 };
 
 /** Stops (exit 2) where the lattice does not fit the frame or a shape makes no curve. */

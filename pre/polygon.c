@@ -14,8 +14,9 @@
 /* Smooth pieces below this length share a run with their neighbours: a corner of its own would
  * make sides much shorter than a spacing. */
 static const double SHORT = 0.75;
-/* Two directions that differ by less than this (radians) are one. */
-static const double SMOOTH = 1e-6;
+/* A bend below this (radians) is no corner: a curve given by many short pieces is cut as one. Passing
+ * such a bend by half a spacing misses it by 0.0025 spacings. */
+static const double SMOOTH = 0.01;
 
 /** A loop in the making: its corners and how far each may be moved. */
 struct loop {
@@ -341,6 +342,22 @@ struct kr_polygon kr_polygon_of(const struct kr_shape *shape, const struct kr_la
         kr_stop(KR_EXIT_INPUT, "the holes leave nothing of the plate");
     check_apart(&polygon, lattice);
     return polygon;
+}
+
+size_t kr_polygon_split(struct kr_polygon *polygon, size_t side) {
+    size_t n = polygon->n++, next = polygon->next[side];
+    polygon->point = kr_realloc(polygon->point, 2 * polygon->n, sizeof *polygon->point);
+    polygon->next = kr_realloc(polygon->next, polygon->n, sizeof *polygon->next);
+    polygon->group = kr_realloc(polygon->group, polygon->n, sizeof *polygon->group);
+    polygon->on_line = kr_realloc(polygon->on_line, polygon->n, sizeof *polygon->on_line);
+    for (int d = 0; d < 2; d++)
+        polygon->point[2 * n + (size_t)d] =
+            (polygon->point[2 * side + (size_t)d] + polygon->point[2 * next + (size_t)d]) / 2;
+    polygon->next[side] = n;
+    polygon->next[n] = next;
+    polygon->group[n] = polygon->group[side];
+    polygon->on_line[n] = polygon->on_line[side];
+    return n;
 }
 
 void kr_polygon_free(struct kr_polygon *polygon) {

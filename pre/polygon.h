@@ -31,6 +31,9 @@ struct kr_polygon {
  */
 struct kr_polygon kr_polygon_of(const struct kr_shape *shape, const struct kr_lattice *lattice);
 
+/** Halve a side; returns the number of the new corner, the last one. */
+size_t kr_polygon_split(struct kr_polygon *polygon, size_t side);
+
 void kr_polygon_free(struct kr_polygon *polygon);
 
 /** The sides near each cell of a lattice: those whose box meets the cell's. */

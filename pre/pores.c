@@ -2,13 +2,13 @@
  *
  * Random pores. Random sequential adsorption: a throw that fits stays, one that does not is
  * forgotten.
- *
- * The generator is splitmix64 (G. L. Steele, D. Lea, C. H. Flood, Fast splittable pseudorandom
- * number generators, OOPSLA 2014): a counter and a mix, whole in its 64 bits of state.
  */
 #include "pores.h"
 
 #include "base/memory.h"
+#include "pore_room.h"
+#include "pore_size.h"
+#include "random.h"
 
 #include <math.h>
 
@@ -18,26 +18,21 @@ static const double NANOMETRES_A_METRE = 1e9;
 /* Squares of nanometres outgrow 64 bits in plates of three metres. */
 __extension__ typedef __int128 wide;
 
-/* A pore in nanometres. */
+/* A pore, or a hole of the deck as the circle around it; nanometres. */
 struct pore {
-    int64_t x, y, radius;
+    int64_t x, y;
+    struct kr_pore_size size;
 };
 
-static uint64_t next(uint64_t *state) {
-    uint64_t z = *state += UINT64_C(0x9E3779B97F4A7C15);
-    z = (z ^ (z >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
-    z = (z ^ (z >> 27)) * UINT64_C(0x94D049BB133111EB);
-    return z ^ (z >> 31);
-}
-
-/* A whole number from least to most, both included. */
-static int64_t between(uint64_t *state, int64_t least, int64_t most) {
-    uint64_t span = (uint64_t)(most - least) + 1, highest = UINT64_MAX - UINT64_MAX % span, drawn;
-    do /* the last, incomplete span would favour small numbers */
-        drawn = next(state);
-    while (drawn >= highest);
-    return least + (int64_t)(drawn % span);
-}
+/* What a throw needs. */
+struct throwing {
+    const struct kr_case *c;
+    struct kr_room room;
+    int64_t width, height, gap;
+    uint64_t state;
+    size_t n, space; /* the deck's holes first */
+    struct pore *pore;
+};
 
 static int64_t nanometres(double metres) {
     return llround(metres * NANOMETRES_A_METRE);
@@ -45,56 +40,116 @@ static int64_t nanometres(double metres) {
 
 /* Whether two pores keep the gap: centres apart by both radii and the gap, squared as integers. */
 static int are_apart(const struct pore *a, const struct pore *b, int64_t gap) {
-    wide dx = a->x - b->x, dy = a->y - b->y, least = a->radius + b->radius + gap;
+    wide dx = a->x - b->x, dy = a->y - b->y, least = a->size.radius + b->size.radius + gap;
     return dx * dx + dy * dy >= least * least;
 }
 
-/* One throw; 0 if a pore of that size has no place between the edges. */
-static int throw_one(const struct kr_case *c, uint64_t *state, struct pore *pore) {
-    const int64_t width = nanometres(c->width), height = nanometres(c->height);
-    const int64_t gap = nanometres(c->pores.gap);
-    int64_t least = nanometres(c->pores.radius[0]), most = nanometres(c->pores.radius[1]);
-    pore->radius = between(state, least > 0 ? least : 1, most > 0 ? most : 1);
-    int64_t edge = llround(ceil(2 * c->pores.edge_diameters * (double)pore->radius));
-    int64_t apart = pore->radius + (gap > 0 ? gap : 1);
+/* Draw the place of a pore; 0 if it does not fit there. */
+static int place(struct throwing *t, struct pore *pore) {
+    int64_t edge =
+        llround(ceil(2 * t->c->pores.edge_diameters * (double)pore->size.radius));
+    int64_t apart = pore->size.radius + (t->gap > 0 ? t->gap : 1);
     if (edge < apart)
         edge = apart;
-    if (2 * edge > width || 2 * edge > height)
+    if (2 * edge > t->width || 2 * edge > t->height)
         return 0;
-    pore->x = between(state, edge, width - edge);
-    pore->y = between(state, edge, height - edge);
-    return 1;
+    pore->x = kr_random_between(&t->state, edge, t->width - edge);
+    pore->y = kr_random_between(&t->state, edge, t->height - edge);
+    for (size_t k = 0; k < t->n; k++)
+        if (!are_apart(pore, &t->pore[k], t->gap))
+            return 0;
+    return kr_room_has(&t->room, pore->x, pore->y, edge);
+}
+
+static void keep(struct throwing *t, const struct pore *pore) {
+    KR_GROW(t->pore, t->n, t->space);
+    t->pore[t->n++] = *pore;
 }
 
 /* The deck's holes stand first among the pores; their radius is rounded up, so that the gap is
  * kept. */
-static size_t take_holes(const struct kr_case *c, struct pore *pore) {
-    const struct kr_case_hole *hole = c->holes.item;
-    for (size_t k = 0; k < c->holes.count; k++) {
+static void take_holes(struct throwing *t) {
+    const struct kr_case_hole *hole = t->c->holes.item;
+    for (size_t k = 0; k < t->c->holes.count; k++) {
         double centre[2], radius = kr_case_hole_reach(&hole[k], centre);
-        pore[k] =
-            (struct pore){nanometres(centre[0]), nanometres(centre[1]), nanometres(radius) + 1};
+        struct pore pore = {nanometres(centre[0]), nanometres(centre[1]), {0}};
+        pore.size.radius = nanometres(radius) + 1;
+        keep(t, &pore);
     }
-    return c->holes.count;
 }
 
-size_t kr_pores_throw(const struct kr_case *c, struct kr_case_hole *hole, int64_t *throws) {
-    uint64_t state = (uint64_t)c->pores.seed;
-    const int64_t gap = nanometres(c->pores.gap);
-    struct pore *pore = KR_NEW(struct pore, c->holes.count + (size_t)c->pores.count);
-    const size_t holes = take_holes(c, pore);
-    size_t placed = holes;
-    for (*throws = 0; *throws < c->pores.attempts && placed < holes + (size_t)c->pores.count;
-         ++*throws) {
-        int fits = throw_one(c, &state, &pore[placed]);
-        for (size_t k = 0; k < placed && fits; k++)
-            fits = are_apart(&pore[placed], &pore[k], gap);
-        placed += (size_t)fits;
+static double area_of(const struct kr_pore_size *size) {
+    return M_PI * ((double)size->radius / NANOMETRES_A_METRE) *
+           ((double)size->shorter / NANOMETRES_A_METRE);
+}
+
+/* Every throw draws a size of its own. */
+static void throw_count(struct throwing *t, struct kr_pores *out) {
+    const size_t holes = t->n;
+    out->wanted = (size_t)t->c->pores.count;
+    while (out->throws < t->c->pores.attempts && t->n < holes + out->wanted) {
+        struct pore pore = {.size = kr_pore_size_draw(&t->c->pores, &t->state)};
+        out->throws++;
+        if (place(t, &pore))
+            keep(t, &pore);
     }
-    for (size_t k = holes; k < placed; k++)
-        hole[k - holes] = (struct kr_case_hole){
-            {(double)pore[k].x / NANOMETRES_A_METRE, (double)pore[k].y / NANOMETRES_A_METRE},
-            (double)pore[k].radius / NANOMETRES_A_METRE};
-    kr_free(pore);
-    return placed - holes;
+}
+
+/* All sizes first, then a place for one after the other. */
+static void throw_porosity(struct throwing *t, struct kr_pores *out) {
+    struct kr_pore_size *size =
+        kr_pore_sizes_draw(&t->c->pores, t->room.area, &t->state, &out->wanted);
+    for (size_t k = 0; k < out->wanted; k++)
+        out->wanted_area += area_of(&size[k]);
+    for (size_t k = 0; k < out->wanted && out->throws < t->c->pores.attempts; out->throws++) {
+        struct pore pore = {.size = size[k]};
+        if (!place(t, &pore))
+            continue;
+        keep(t, &pore);
+        k++;
+    }
+    kr_free(size);
+}
+
+static struct kr_case_hole hole_of(const struct kr_case *c, const struct pore *pore) {
+    struct kr_case_hole hole = {
+        {(double)pore->x / NANOMETRES_A_METRE, (double)pore->y / NANOMETRES_A_METRE},
+        (double)pore->size.radius / NANOMETRES_A_METRE};
+    if (c->pores.shape == KR_PORE_CIRCLE)
+        return hole;
+    hole.shape = KR_HOLE_ELLIPSE;
+    hole.radii[0] = hole.radius;
+    hole.radii[1] = (double)pore->size.shorter / NANOMETRES_A_METRE;
+    hole.angle = (double)pore->size.angle / 1000 * M_PI / 180;
+    hole.radius = 0;
+    return hole;
+}
+
+struct kr_pores kr_pores_throw(const struct kr_case *c) {
+    struct throwing t = {.c = c,
+                         .room = kr_room_of(c),
+                         .width = nanometres(c->width),
+                         .height = nanometres(c->height),
+                         .gap = nanometres(c->pores.gap),
+                         .state = (uint64_t)c->pores.seed};
+    struct kr_pores out = {.outline = t.room.area};
+    take_holes(&t);
+    if (c->pores.count)
+        throw_count(&t, &out);
+    else
+        throw_porosity(&t, &out);
+    out.placed = t.n - c->holes.count;
+    out.hole = KR_NEW(struct kr_case_hole, out.placed);
+    for (size_t k = 0; k < out.placed; k++) {
+        out.hole[k] = hole_of(c, &t.pore[c->holes.count + k]);
+        out.area += area_of(&t.pore[c->holes.count + k].size);
+    }
+    kr_room_free(&t.room);
+    kr_free(t.pore);
+    return out;
+}
+
+void kr_pores_free(struct kr_pores *pores) {
+    kr_free(pores->hole);
+    *pores = (struct kr_pores){0};
 }

@@ -133,6 +133,11 @@ static void check_polygon(struct repair *r, size_t c) {
 
 /** Turn a solid inside out: its mirror image in the order of corners. */
 static void turn(size_t n, size_t *vertex) {
+    if (kr_solid_is_pieces(n)) {
+        for (size_t k = 0; k < n; k += 4)
+            turn(4, vertex + k);
+        return;
+    }
     static const unsigned char order[][8] = {
         [4] = {0, 2, 1, 3}, [5] = {0, 3, 2, 1, 4}, [6] = {3, 4, 5, 0, 1, 2}, [8] = {4, 5, 6, 7, 0, 1, 2, 3}};
     const struct kr_solid *solid = kr_solid(n);
@@ -188,6 +193,9 @@ static int same_vertices(const struct repair *r, size_t p, size_t q) {
     size_t a[64], b[64], n = r->size[p];
     if (n != r->size[q])
         return 0;
+    if (n > 64) /* a polyhedron: given twice it is given alike */
+        return !memcmp(r->mesh->vertex + r->mesh->first[p], r->mesh->vertex + r->mesh->first[q],
+                       n * sizeof *a);
     memcpy(a, r->mesh->vertex + r->mesh->first[p], n * sizeof *a);
     memcpy(b, r->mesh->vertex + r->mesh->first[q], n * sizeof *b);
     qsort(a, n, sizeof *a, ascending);
@@ -335,8 +343,8 @@ static void check_orphans(struct kr_mesh *mesh, const char *path, int mend) {
 /** Whether indices and coordinates are such that cells can be looked at at all. */
 static void stop_if_broken(const struct kr_mesh *mesh, const char *path) {
     for (size_t c = 0; c < mesh->n_cells; c++)
-        if (mesh->first[c + 1] - mesh->first[c] > 64 ||
-            (mesh->dim == 3 && !kr_solid(mesh->first[c + 1] - mesh->first[c])))
+        if (mesh->dim == 2 ? mesh->first[c + 1] - mesh->first[c] > 64
+                           : !kr_solid_n_faces(mesh->first[c + 1] - mesh->first[c]))
             kr_stop(KR_EXIT_INPUT, "%s: cell %lld has %zu vertices", path,
                     (long long)mesh->cell_tag[c], mesh->first[c + 1] - mesh->first[c]);
 }

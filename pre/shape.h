@@ -79,14 +79,16 @@ void kr_curve_reverse(struct kr_curve *curve);
 void kr_curve_free(struct kr_curve *curve);
 void kr_shape_free(struct kr_shape *shape);
 
-/** What is left of the outline when all holes are cut out; holes may overlap each other and the
- *  outline. Every curve has the body on its left.
- *
- *  in  outline    curves with the plate on their left: one, or two for a ring
- *  in  hole       (n_holes) each counter-clockwise
- */
-struct kr_shape kr_shape_cut(const struct kr_shape *outline, size_t n_holes,
-                             const struct kr_curve *hole);
+/** What a body is made of: what an odd number of its curves hold, joined to the layers before it or
+ *  taken away from them. */
+struct kr_layer {
+    struct kr_shape shape; /* each curve counter-clockwise */
+    int is_cut;            /* taken away */
+};
+
+/** The body that layers make in turn; they may overlap, touch along edges and cut each other. Every
+ *  curve has the body on its left. Edges that two layers share are of the group of the first. */
+struct kr_shape kr_shape_cut(size_t n, const struct kr_layer *layer);
 
 /** Where two pieces meet: shares of both (u in the first, v in the second) and the points, at most
  *  16. Where they run along each other, the ends of that stretch. Used by kr_shape_cut. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Outline less holes. Every piece is cut where it meets another curve; a part then lies wholly
+ * Layers joined and cut. Every piece is cut where it meets another curve; a part then lies wholly
  * inside, outside or along each other curve, and its middle tells which. Kept are the parts with
  * body on their left and none on their right; they are chained by their ends.
  */
@@ -12,11 +12,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/** All curves: those of the outline, then the holes. */
+/** All curves, layer after layer. */
 struct cutting {
-    size_t n, n_outline;
+    size_t n;
     struct kr_curve *curve; /* (n) owned: ends may be moved onto each other */
     double (*box)[4];
+    size_t *layer; /* (n) that a curve belongs to */
+    const struct kr_layer *of;
 };
 
 /** The parts that are kept, in the sense with the body on their left. */
@@ -111,12 +113,11 @@ static void sides_in(const struct kr_curve *curve, const struct kr_piece *part, 
 
 /** Whether a part of curve c bounds the body: 1 as it is, -1 reversed, 0 not. */
 static int bounds_body(const struct cutting *all, size_t c, const struct kr_piece *part) {
-    int body[2] = {0, 0}, inside[2]; /* left, right */
+    int body[2] = {0, 0}, within[2] = {0, 0}; /* left, right: all layers so far, this layer */
     double box[4];
     kr_piece_box(part, box);
     for (size_t other = 0; other < all->n; other++) {
-        int is_outline = other < all->n_outline;
-        inside[0] = inside[1] = 0;
+        int inside[2] = {0, 0};
         if (other == c)
             inside[0] = 1;
         else if (boxes_meet(box, all->box[other]))
@@ -124,8 +125,15 @@ static int bounds_body(const struct cutting *all, size_t c, const struct kr_piec
         /* Of two curves that run along each other the first one's part is kept. */
         if (other < c && inside[0] != inside[1])
             return 0;
-        for (int side = 0; side < 2; side++)
-            body[side] = is_outline ? body[side] ^ inside[side] : body[side] && !inside[side];
+        int is_last = other + 1 == all->n || all->layer[other + 1] != all->layer[other];
+        for (int side = 0; side < 2; side++) {
+            within[side] ^= inside[side];
+            if (!is_last)
+                continue;
+            int is_cut = all->of[all->layer[other]].is_cut;
+            body[side] = is_cut ? body[side] && !within[side] : body[side] || within[side];
+            within[side] = 0;
+        }
     }
     return body[0] - body[1];
 }
@@ -210,22 +218,31 @@ static struct kr_curve chain(struct parts *parts, unsigned char *used, size_t fi
     return curve;
 }
 
-struct kr_shape kr_shape_cut(const struct kr_shape *outline, size_t n_holes,
-                             const struct kr_curve *hole) {
-    struct cutting all = {.n = outline->n_curves + n_holes, .n_outline = outline->n_curves};
+/** Copies of all curves, ends that stand on each other made one. */
+static struct cutting gather(size_t n, const struct kr_layer *layer) {
+    struct cutting all = {.of = layer};
+    for (size_t l = 0; l < n; l++)
+        all.n += layer[l].shape.n_curves;
+    all.curve = KR_NEW(struct kr_curve, all.n);
+    all.layer = KR_NEW(size_t, all.n);
+    all.box = kr_alloc(all.n, sizeof *all.box);
+    for (size_t l = 0, c = 0; l < n; l++)
+        for (size_t k = 0; k < layer[l].shape.n_curves; k++, c++) {
+            all.layer[c] = l;
+            all.curve[c] = copy_of(&layer[l].shape.curve[k]);
+            kr_curve_box(&all.curve[c], all.box[c]);
+            for (size_t other = 0; other < c; other++)
+                if (boxes_meet(all.box[c], all.box[other]))
+                    unite_ends(&all.curve[c], &all.curve[other]);
+        }
+    return all;
+}
+
+struct kr_shape kr_shape_cut(size_t n, const struct kr_layer *layer) {
+    struct cutting all = gather(n, layer);
     struct parts parts = {0, 0, NULL};
     struct kr_shape body = {0, NULL};
     size_t room = 0;
-    all.curve = KR_NEW(struct kr_curve, all.n);
-    all.box = kr_alloc(all.n, sizeof *all.box);
-    for (size_t c = 0; c < all.n; c++) {
-        all.curve[c] =
-            copy_of(c < all.n_outline ? &outline->curve[c] : &hole[c - all.n_outline]);
-        kr_curve_box(&all.curve[c], all.box[c]);
-        for (size_t other = 0; other < c; other++)
-            if (boxes_meet(all.box[c], all.box[other]))
-                unite_ends(&all.curve[c], &all.curve[other]);
-    }
     for (size_t c = 0; c < all.n; c++)
         for (size_t k = 0; k < all.curve[c].n; k++)
             cut_piece(&all, c, k, &parts);
@@ -238,6 +255,7 @@ struct kr_shape kr_shape_cut(const struct kr_shape *outline, size_t n_holes,
     for (size_t c = 0; c < all.n; c++)
         kr_curve_free(&all.curve[c]);
     kr_free(all.curve);
+    kr_free(all.layer);
     kr_free(all.box);
     kr_free(parts.piece);
     kr_free(used);

@@ -43,6 +43,10 @@ static int note(const struct kr_piece *p, const struct kr_piece *q, const double
         new.v = is_same(q->from, point) ? 0 : 1;
     if (is_same(p->from, point) || is_same(p->to, point))
         new.u = is_same(p->from, point) ? 0 : 1;
+    /* A crossing that misses a line of the lattice by rounding alone stands on it. */
+    for (int d = 0; d < 2; d++)
+        if (fabs(point[d] - nearbyint(point[d])) < KR_SHAPE_SAME)
+            new.point[d] = nearbyint(point[d]);
     if (n == MOST || !(new.u >= 0 && new.u <= 1 && new.v >= 0 && new.v <= 1))
         return n;
     if (new.v == 0 || new.v == 1)
@@ -82,6 +86,20 @@ static double off_at(const struct kr_piece *along, double u, const struct kr_pie
     return off(of, point);
 }
 
+/** Whether a crossing at share u of p is only a noted meeting where the pieces touch: they are one
+ *  all the way to it, and the sign that changed was that of rounding. */
+static int is_touch(const struct kr_piece *p, const struct kr_piece *q, double u,
+                    const struct kr_meeting *at, int n) {
+    double point[2];
+    for (int k = 0; k < n; k++) {
+        kr_piece_at(p, (u + at[k].u) / 2, point, NULL);
+        if (hypot(point[0] - at[k].point[0], point[1] - at[k].point[1]) < 0.05 &&
+            kr_piece_distance(q, point) < KR_SHAPE_SAME)
+            return 1;
+    }
+    return 0;
+}
+
 static int note_crossing(const struct kr_piece *p, const struct kr_piece *q, double low,
                          double high, struct kr_meeting *at, int n) {
     double point[2], off_low = off_at(p, low, q, point);
@@ -93,7 +111,7 @@ static int note_crossing(const struct kr_piece *p, const struct kr_piece *q, dou
             high = middle;
     }
     kr_piece_at(p, (low + high) / 2, point, NULL);
-    return note(p, q, point, at, n);
+    return is_touch(p, q, (low + high) / 2, at, n) ? n : note(p, q, point, at, n);
 }
 
 static int boxes_part(const struct kr_piece *p, const struct kr_piece *q) {

@@ -8,17 +8,38 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "builder.h"
+#include "outline.h"
+
+#include <math.h>
 
 static const int to[4][2] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}}; /* neighbour over side k */
 static const size_t end[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}; /* corners */
+
+/** Group of the edge of the outline that is nearest to the middle of a square's side. */
+static int nearest_group(const struct kr_plate_body *body, size_t i, size_t j, int k) {
+    const double middle[2] = {(double)i + 0.5 + to[k][0] / 2.0, (double)j + 0.5 + to[k][1] / 2.0};
+    double least = INFINITY;
+    int group = KR_OUTLINE_SIDES;
+    for (size_t c = 0; c < body->exact.n_curves; c++)
+        for (size_t p = 0; p < body->exact.curve[c].n; p++) {
+            const struct kr_piece *piece = &body->exact.curve[c].piece[p];
+            double far = piece->group < body->first_hole ? kr_piece_distance(piece, middle) : INFINITY;
+            if (far < least) {
+                least = far;
+                group = piece->group;
+            }
+        }
+    return group;
+}
 
 /** Group of the edge over side k of a square, -1 where another square lies there. */
 static int group_over(const struct kr_plate_body *body, size_t i, size_t j, int k) {
     static const int frame[4] = {2, 1, 3, 0}; /* bottom, right, top, left */
     size_t ni = i + (size_t)to[k][0], nj = j + (size_t)to[k][1];
     if (ni >= body->lattice.columns || nj >= body->lattice.rows) /* 0 less one is large */
-        return body->first_hole == 1 ? 0 : frame[k];
-    return (int)body->holder[kr_lattice_cell(&body->lattice, ni, nj)] - 1;
+        return frame[k];
+    int group = (int)body->holder[kr_lattice_cell(&body->lattice, ni, nj)] - 1;
+    return group < 0 || group >= body->first_hole ? group : nearest_group(body, i, j, k);
 }
 
 /** All edges, a group after the other. */

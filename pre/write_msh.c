@@ -4,12 +4,13 @@
  *
  * In this format not the cells but the "entities" they lie on belong to physical groups. So the
  * cells are sorted into classes, one for each set of groups that occurs, and each class becomes an
- * entity; the same for edges.
+ * entity; the same for edges, in 3D for faces.
  */
 #include "mesh.h"
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "element.h"
 
 #include <errno.h>
 #include <math.h>
@@ -17,7 +18,8 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { LINE = 1, TRIANGLE = 2, QUADRILATERAL = 3 };
+/* One above the greatest number of gmsh's for an element that is written here: a pyramid. */
+enum { KINDS = 8 };
 
 /** Classes of the items of one dimension. Class 0 is in no group; any other is in the group by
  *  which it was split from its parent, and in all groups of the parent. */
@@ -42,7 +44,10 @@ static size_t add_class(struct classes *classes, size_t parent, size_t group) {
 }
 
 static struct classes classify(const struct kr_mesh *mesh, int dim) {
-    struct classes classes = {.dim = dim, .n_items = dim == 1 ? mesh->n_edges : mesh->n_cells};
+    struct classes classes = {.dim = dim,
+                              .n_items = dim == mesh->dim ? mesh->n_cells
+                                         : dim == 1       ? mesh->n_edges
+                                                          : mesh->n_faces};
     classes.of_item = KR_NEW(size_t, classes.n_items);
     add_class(&classes, 0, 0);
     classes.size[0] = classes.n_items;
@@ -119,7 +124,7 @@ static void write_entities_of(const struct kr_mesh *mesh, const struct classes *
     }
 }
 
-static void write_entities(const struct kr_mesh *mesh, const struct classes *edges,
+static void write_entities(const struct kr_mesh *mesh, const struct classes *facets,
                            const struct classes *cells, FILE *file) {
     double box[6] = {INFINITY, INFINITY, INFINITY, -INFINITY, -INFINITY, -INFINITY};
     for (size_t k = 0; k < 3 * mesh->n_points; k++) {
@@ -127,11 +132,11 @@ static void write_entities(const struct kr_mesh *mesh, const struct classes *edg
         box[3 + k % 3] = fmax(box[3 + k % 3], mesh->point[k]);
     }
     fprintf(file, "$Entities\n");
-    put_size(file, 0);
-    put_size(file, entities_of(edges));
-    put_size(file, entities_of(cells));
-    put_size(file, 0);
-    write_entities_of(mesh, edges, box, file);
+    for (int dim = 0; dim <= 3; dim++)
+        put_size(file, dim == facets->dim  ? entities_of(facets)
+                       : dim == cells->dim ? entities_of(cells)
+                                           : 0);
+    write_entities_of(mesh, facets, box, file);
     write_entities_of(mesh, cells, box, file);
     fprintf(file, "\n$EndEntities\n");
 }
@@ -145,7 +150,7 @@ static void write_nodes(const struct kr_mesh *mesh, const struct classes *cells,
     put_size(file, mesh->n_points);
     put_size(file, 1);
     put_size(file, mesh->n_points);
-    put_int(file, 2);
+    put_int(file, mesh->dim);
     put_int(file, (int)first + 1);
     put_int(file, 0);
     put_size(file, mesh->n_points);
@@ -156,29 +161,39 @@ static void write_nodes(const struct kr_mesh *mesh, const struct classes *cells,
     fprintf(file, "\n$EndNodes\n");
 }
 
-static int type_of(const struct kr_mesh *mesh, int dim, size_t item) {
-    if (dim == 1)
-        return LINE;
-    size_t n = mesh->first[item + 1] - mesh->first[item];
-    if (n > 4)
-        kr_stop(KR_EXIT_INPUT,
-                "cell %lld has %zu corners; a .msh file holds triangles and "
-                "quadrilaterals only",
-                (long long)mesh->cell_tag[item], n);
-    return n == 3 ? TRIANGLE : QUADRILATERAL;
+/** Points of a cell, or of an edge or face; returns how many. */
+static size_t points_of(const struct kr_mesh *mesh, int dim, size_t item, const size_t **point) {
+    if (dim == mesh->dim) {
+        *point = mesh->vertex + mesh->first[item];
+        return mesh->first[item + 1] - mesh->first[item];
+    }
+    *point = dim == 1 ? mesh->edge + 2 * item : mesh->face + mesh->face_first[item];
+    return dim == 1 ? 2 : mesh->face_first[item + 1] - mesh->face_first[item];
 }
 
-/** Write the blocks of one dimension, or only count them where file is NULL. An edge's number
- *  follows those of the cells. */
+static int type_of(const struct kr_mesh *mesh, int dim, size_t item) {
+    const size_t *point;
+    size_t n = points_of(mesh, dim, item, &point);
+    int type = kr_element_type(dim, n);
+    if (!type || type >= KINDS)
+        kr_stop(KR_EXIT_INPUT,
+                "cell %lld has %zu corners; a .msh file holds triangles, quadrilaterals and solids "
+                "of four to eight corners only",
+                (long long)(dim == mesh->dim ? mesh->cell_tag[item] : 0), n);
+    return type;
+}
+
+/** Write the blocks of one dimension, or only count them where file is NULL. The number of
+ *  an edge or face follows those of the cells. */
 static size_t write_blocks(const struct kr_mesh *mesh, const struct classes *classes,
                            size_t last_cell, FILE *file) {
-    size_t blocks = 0, kinds = (QUADRILATERAL + 1) * classes->count;
+    size_t blocks = 0, kinds = KINDS * classes->count;
     size_t *count = KR_NEW(size_t, kinds), *first = KR_NEW(size_t, kinds + 1);
     size_t *sorted = KR_NEW(size_t, classes->n_items);
     for (int pass = 0; pass < 2; pass++) {
         for (size_t i = 0; i < classes->n_items; i++) {
             size_t kind =
-                classes->of_item[i] * (QUADRILATERAL + 1) + (size_t)type_of(mesh, classes->dim, i);
+                classes->of_item[i] * KINDS + (size_t)type_of(mesh, classes->dim, i);
             if (pass)
                 sorted[first[kind] + count[kind]] = i;
             count[kind]++;
@@ -195,15 +210,14 @@ static size_t write_blocks(const struct kr_mesh *mesh, const struct classes *cla
         if (!file)
             continue;
         put_int(file, classes->dim);
-        put_int(file, (int)(k / (QUADRILATERAL + 1)) + 1);
-        put_int(file, (int)(k % (QUADRILATERAL + 1)));
+        put_int(file, (int)(k / KINDS) + 1);
+        put_int(file, (int)(k % KINDS));
         put_size(file, count[k]);
         for (size_t s = first[k]; s < first[k + 1]; s++) {
             size_t i = sorted[s];
-            const size_t *v =
-                classes->dim == 1 ? mesh->edge + 2 * i : mesh->vertex + mesh->first[i];
-            size_t n = classes->dim == 1 ? 2 : mesh->first[i + 1] - mesh->first[i];
-            put_size(file, classes->dim == 1 ? last_cell + 1 + i : (size_t)mesh->cell_tag[i]);
+            const size_t *v;
+            size_t n = points_of(mesh, classes->dim, i, &v);
+            put_size(file, classes->dim < mesh->dim ? last_cell + 1 + i : (size_t)mesh->cell_tag[i]);
             for (size_t c = 0; c < n; c++)
                 put_size(file, v[c] + 1);
         }
@@ -214,7 +228,7 @@ static size_t write_blocks(const struct kr_mesh *mesh, const struct classes *cla
     return blocks;
 }
 
-static void write_elements(const struct kr_mesh *mesh, const struct classes *edges,
+static void write_elements(const struct kr_mesh *mesh, const struct classes *facets,
                            const struct classes *cells, FILE *file) {
     int64_t least = INT64_MAX, most = 0;
     for (size_t c = 0; c < mesh->n_cells; c++) {
@@ -223,11 +237,11 @@ static void write_elements(const struct kr_mesh *mesh, const struct classes *edg
     }
     size_t last = (size_t)most;
     fprintf(file, "$Elements\n");
-    put_size(file, write_blocks(mesh, edges, last, NULL) + write_blocks(mesh, cells, last, NULL));
-    put_size(file, mesh->n_edges + mesh->n_cells);
+    put_size(file, write_blocks(mesh, facets, last, NULL) + write_blocks(mesh, cells, last, NULL));
+    put_size(file, facets->n_items + mesh->n_cells);
     put_size(file, (size_t)least);
-    put_size(file, last + mesh->n_edges);
-    write_blocks(mesh, edges, last, file);
+    put_size(file, last + facets->n_items);
+    write_blocks(mesh, facets, last, file);
     write_blocks(mesh, cells, last, file);
     fprintf(file, "\n$EndElements\n");
 }
@@ -237,21 +251,21 @@ void kr_mesh_write_msh(const struct kr_mesh *mesh, const char *path) {
     FILE *file = fopen(part, "wb");
     if (!file)
         kr_stop(KR_EXIT_STORAGE, "%s cannot be written: %s", part, strerror(errno));
-    struct classes edges = classify(mesh, 1), cells = classify(mesh, 2);
+    struct classes facets = classify(mesh, mesh->dim - 1), cells = classify(mesh, mesh->dim);
     fprintf(file, "$MeshFormat\n4.1 1 8\n");
     put_int(file, 1); /* tells a reader the order of bytes */
     fprintf(file, "\n$EndMeshFormat\n");
     write_names(mesh, file);
-    write_entities(mesh, &edges, &cells, file);
+    write_entities(mesh, &facets, &cells, file);
     write_nodes(mesh, &cells, file);
-    write_elements(mesh, &edges, &cells, file);
+    write_elements(mesh, &facets, &cells, file);
     int failed = ferror(file) || fflush(file) || fsync(fileno(file));
     if (fclose(file) || failed || rename(part, path)) {
         int why = errno;
         unlink(part);
         kr_stop(KR_EXIT_STORAGE, "%s cannot be written: %s", path, strerror(why));
     }
-    free_classes(&edges);
+    free_classes(&facets);
     free_classes(&cells);
     kr_free(part);
 }

@@ -48,6 +48,8 @@ static unsigned char type_of(int dim, int64_t vertices) {
         return 1;
     if (dim == 2)
         return vertices == 3 ? 5 : vertices == 4 ? 9 : 7;
+    if (vertices > 20)
+        return 41; /* a polyhedron in tetrahedra: VTK's convex set of points */
     return solid[vertices];
 }
 

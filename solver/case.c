@@ -16,6 +16,7 @@
 /* In a plate two components, in a solid three. */
 #define PLACE_OF(where)                                                                            \
     .type = KR_DECK_VECTOR, .offset = (where), .unit = "m", .count = 3, .fewest = 2
+#define SPACE_OF(where) .type = KR_DECK_VECTOR, .offset = (where), .unit = "m", .count = 3
 #define NUMBER_OF(where, si) .type = KR_DECK_NUMBER, .offset = (where), .unit = (si)
 #define LIST_OF(what, type_, keys_)                                                                \
     .type = (what), .item_size = sizeof(type_), .keys = (keys_), .fallback = ""
@@ -46,17 +47,44 @@ static const struct kr_deck_key hole_keys[] = {
 };
 
 #define OUTLINE_AT(field) offsetof(struct kr_case_outline, field)
+#define OUTLINE_SHAPE_KEYS                                                                         \
+    {"shape", KR_DECK_CHOICE, OUTLINE_AT(shape), .words = KR_OUTLINE_WORDS,                        \
+     .fallback = "rectangle",                                                                      \
+     .text = "`rectangle`: all of width by height, or of a size; `cad`: the plane faces of a "     \
+             "file, with their holes."},                                                           \
+    {"centre", VECTOR_OF(OUTLINE_AT(centre)), .fallback = "",                                      \
+     .text = "Centre of a disc, ring or rectangle; not given: the middle of width by height. Of "  \
+             "a polygon or a cad file: where its origin comes to lie; not given: (0, 0)."},        \
+    {"radius", LENGTH_OF(OUTLINE_AT(radius)), POSITIVE,                                            \
+     .text = "Outer radius of a disc or ring."},                                                   \
+    {"inner_radius", LENGTH_OF(OUTLINE_AT(inner_radius)), POSITIVE, .text = "Of a ring."},         \
+    {"points", KR_DECK_NUMBERS, OUTLINE_AT(points), .unit = "m", .count = 2, .fallback = "",       \
+     .text = "Corners of a polygon in turn."},                                                     \
+    {"corner_radius", LENGTH_OF(OUTLINE_AT(corner_radius)), NOT_NEGATIVE,                          \
+     .text = "Radius that rounds the corners of a rectangle or polygon; not given: sharp."},       \
+    {"size", VECTOR_OF(OUTLINE_AT(size)), .fallback = "", POSITIVE,                                \
+     .text = "Sides of a rectangle, along x and y before it is turned; not given: width and "      \
+             "height."},                                                                           \
+    {"angle", NUMBER_OF(OUTLINE_AT(angle), "rad"), .fallback = "",                                 \
+     .text = "Turns the shape about its centre, counter-clockwise."},                              \
+    {"file", KR_DECK_TEXT, OUTLINE_AT(file), .fallback = "",                                       \
+     .text = "STEP, IGES or BREP file of a `cad` outline; a path from the deck's folder."}
+
+static const struct kr_deck_key part_keys[] = {
+    OUTLINE_SHAPE_KEYS,
+    {"operation", KR_DECK_CHOICE, OUTLINE_AT(operation), .words = KR_OPERATION_WORDS,
+     .fallback = "union", .text = "What the part does to the parts before it."},
+    {"name", KR_DECK_TEXT, OUTLINE_AT(name), .fallback = "",
+     .text = "Name of its edges as a boundary of the mesh; not given: `outline`."},
+    {NULL},
+};
+
 static const struct kr_deck_key outline_keys[] = {
-    {"shape", KR_DECK_CHOICE, OUTLINE_AT(shape), .words = KR_OUTLINE_WORDS,
-     .fallback = "rectangle", .text = "`rectangle`: all of width by height."},
-    {"centre", VECTOR_OF(OUTLINE_AT(centre)), .fallback = "",
-     .text = "Centre of a disc or ring; not given: the middle of width by height."},
-    {"radius", LENGTH_OF(OUTLINE_AT(radius)), POSITIVE, .text = "Outer radius of a disc or ring."},
-    {"inner_radius", LENGTH_OF(OUTLINE_AT(inner_radius)), POSITIVE, .text = "Of a ring."},
-    {"points", KR_DECK_NUMBERS, OUTLINE_AT(points), .unit = "m", .count = 2, .fallback = "",
-     .text = "Corners of a polygon in turn, within width by height."},
-    {"corner_radius", LENGTH_OF(OUTLINE_AT(corner_radius)), NOT_NEGATIVE,
-     .text = "Radius that rounds the corners of a polygon; not given: sharp."},
+    OUTLINE_SHAPE_KEYS,
+    {"parts", LIST_OF(KR_DECK_LIST, struct kr_case_outline, part_keys), .offset = OUTLINE_AT(parts),
+     .text = "Parts that make the outline in turn, each joined to those before it or taken away "
+             "from them; in place of `shape`. Within width by height; straight edges on its sides "
+             "are the boundaries `left`, `right`, `bottom` and `top`."},
     {NULL},
 };
 
@@ -64,17 +92,67 @@ static const struct kr_deck_key outline_keys[] = {
 static const struct kr_deck_key pores_keys[] = {
     {"count", KR_DECK_INTEGER, PORES_AT(count), .fallback = "0", .least = 0, .most = 1e6,
      .text = "How many pores kirsch-pores throws at random; 0: none."},
+    {"porosity", NUMBER_OF(PORES_AT(porosity), "1"), .fallback = "0", .least = 0, .most = 0.9,
+     .text = "In place of a count: area of the pores over that of the outline. Met to a "
+             "nanometre of the last radius where the range of radii allows it; the largest pores "
+             "are placed first."},
+    {"file", KR_DECK_TEXT, PORES_AT(file), .fallback = "",
+     .text = "In place of random pores: a file of them, a path from the deck's folder "
+             "([formats.md](formats.md#porestxt))."},
+    {"shape", KR_DECK_CHOICE, PORES_AT(shape), .words = KR_PORE_WORDS, .fallback = "circle",
+     .text = "`ellipse`: at random angles, the radius its long half axis; distances are kept by "
+             "the circle around it."},
+    {"aspect", KR_DECK_VECTOR, PORES_AT(aspect), .unit = "1", .count = 2, .fallback = "",
+     .least = 1, .most = 100,
+     .text = "Least and largest ratio of an ellipse's half axes, drawn evenly between the two."},
     {"radius", VECTOR_OF(PORES_AT(radius)), .fallback = "", POSITIVE,
-     .text =
-         "Least and largest radius; drawn evenly between the two. Needed where there are pores."},
+     .text = "Least and largest radius. Needed where there are random pores."},
+    {"distribution", KR_DECK_CHOICE, PORES_AT(distribution), .words = KR_DISTRIBUTION_WORDS,
+     .fallback = "uniform",
+     .text = "Of the radius between the two: `uniform`; `normal` and `lognormal`, cut off there; "
+             "`by-area`, evenly over the areas of the pores."},
+    {"mean", NUMBER_OF(PORES_AT(mean), "m"), .fallback = "", POSITIVE,
+     .text = "Mean of a normal or lognormal radius before it is cut off."},
+    {"deviation", NUMBER_OF(PORES_AT(deviation), "m"), .fallback = "", POSITIVE,
+     .text = "Its standard deviation."},
     {"edge_diameters", NUMBER_OF(PORES_AT(edge_diameters), "1"), .fallback = "1", NOT_NEGATIVE,
-     .text = "Least distance of a centre from the edges of the plate, in diameters of the pore."},
+     .text = "Least distance of a centre from the edges of the outline, in diameters of the "
+             "pore."},
     {"gap", NUMBER_OF(PORES_AT(gap), "m"), .fallback = "0.3 mm", NOT_NEGATIVE,
      .text = "Least distance between the rims of two holes."},
     {"seed", KR_DECK_INTEGER, PORES_AT(seed), .fallback = "1", .least = 0, .most = 9e15,
      .text = "Equal seeds give equal pores on every machine."},
     {"attempts", KR_DECK_INTEGER, PORES_AT(attempts), .fallback = "100000", .least = 1,
      .most = 1e12, .text = "Throws before kirsch-pores gives up, all pores together."},
+    {NULL},
+};
+
+#define VOID_AT(field) offsetof(struct kr_case_void, field)
+static const struct kr_deck_key void_keys[] = {
+    {"centre", SPACE_OF(VOID_AT(centre)), .fallback = "",
+     .text = "Centre `[x, y, z]`; it may lie outside, and voids may overlap each other. An STL file "
+             "needs none: its origin comes to lie there."},
+    {"radius", LENGTH_OF(VOID_AT(radius)), POSITIVE, .text = "Of a sphere or cylinder."},
+    {"shape", KR_DECK_CHOICE, VOID_AT(shape), .words = KR_VOID_WORDS, .fallback = "sphere",
+     .text = "`stl`: what the closed surface in a file bounds."},
+    {"radii", SPACE_OF(VOID_AT(radii)), .fallback = "", POSITIVE,
+     .text = "Half axes of an ellipsoid, along x, y and z."},
+    {"length", LENGTH_OF(VOID_AT(length)), POSITIVE, .text = "Of a cylinder between its flat ends."},
+    {"axis", .type = KR_DECK_VECTOR, .offset = VOID_AT(axis), .unit = "1", .count = 3, .fallback = "",
+     .text = "Direction of a cylinder; not given: along z."},
+    {"file", KR_DECK_TEXT, VOID_AT(file), .fallback = "",
+     .text = "STL file, binary or ASCII; a path from the deck's folder."},
+    {"unit", LENGTH_OF(VOID_AT(unit)), POSITIVE, .text = "What 1 in the STL file stands for, `1 mm`."},
+    {NULL},
+};
+
+#define BODY_AT(field) offsetof(struct kr_case, body.field)
+static const struct kr_deck_key body_keys[] = {
+    {"file", KR_DECK_TEXT, BODY_AT(file), .fallback = "",
+     .text = "STL file of a closed surface, binary or ASCII; a path from the deck's folder."},
+    {"unit", LENGTH_OF(BODY_AT(unit)), POSITIVE, .text = "What 1 in the file stands for, `1 mm`."},
+    {"centre", SPACE_OF(BODY_AT(centre)), .fallback = "",
+     .text = "Where the origin of the file comes to lie; not given: at the origin."},
     {NULL},
 };
 
@@ -87,8 +165,15 @@ static const struct kr_deck_key geometry_keys[] = {
      .text = "Shape of the plate where it is no rectangle."},
     {"holes", LIST_OF(KR_DECK_LIST, struct kr_case_hole, hole_keys), .offset = AT(holes),
      .text = "Holes at given places."},
+    {"depth", NUMBER_OF(AT(depth), "m"), .fallback = "", POSITIVE,
+     .text = "Makes the plate a solid from z = 0 to this depth, its holes going through."},
+    {"voids", LIST_OF(KR_DECK_LIST, struct kr_case_void, void_keys), .offset = AT(voids),
+     .text = "Voids in a solid; the boundaries `void_1`, ... of the mesh, in this order."},
+    {"body", KR_DECK_SECTION, .keys = body_keys,
+     .text = "A solid from an STL file, within width by height by depth, in place of outline and "
+             "holes."},
     {"pores", KR_DECK_SECTION, AT(pores), .keys = pores_keys,
-     .text = "Round holes at random places."},
+     .text = "Holes at random places."},
     {NULL},
 };
 
@@ -208,6 +293,9 @@ static const struct kr_deck_key solver_keys[] = {
     {"end_time", NUMBER_OF(AT(end_time), "s"), POSITIVE, .text = "Time at which the run ends."},
     {"time_step", NUMBER_OF(AT(time_step), "s"), .fallback = "0 s", NOT_NEGATIVE,
      .text = "Step of velocity-Verlet; 0: the largest stable step times `safety_factor`."},
+    {"precision", KR_DECK_CHOICE, AT(precision), .words = "double mixed", .fallback = "double",
+     .text = "`mixed`: what the loop over bonds makes of the differences of displacements is "
+             "float32, nearly twice as fast ([performance.md](performance.md#mixed-precision))."},
     {"safety_factor", NUMBER_OF(AT(safety_factor), "1"), .fallback = "0.8", .least = 0, .most = 1,
      .exclusive = 1, .text = "Share of the largest stable step that is taken."},
     {"checkpoint_every", NUMBER_OF(AT(checkpoint_every), "s"), .fallback = "600 s", NOT_NEGATIVE,

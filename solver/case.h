@@ -11,7 +11,11 @@
 /* Choices of the deck and their words, in one order. */
 #define KR_GRID_WORDS "near-boundary uniform free voronoi"
 #define KR_HOLE_WORDS "circle ellipse rectangle polygon slot"
-#define KR_OUTLINE_WORDS "rectangle polygon disc ring"
+#define KR_OUTLINE_WORDS "rectangle polygon disc ring cad"
+#define KR_OPERATION_WORDS "union difference"
+#define KR_PORE_WORDS "circle ellipse"
+#define KR_DISTRIBUTION_WORDS "uniform normal lognormal by-area"
+#define KR_VOID_WORDS "sphere ellipsoid cylinder stl"
 #define KR_PARTIAL_VOLUME_WORDS "hhb none hhb-one-sided exact exact-centroid"
 #define KR_SURFACE_WORDS "energy none volume force-density"
 #define KR_DEFORMATION_WORDS "uniaxial-y uniaxial-x isotropic mean-over-axes"
@@ -27,7 +31,17 @@ enum kr_hole_shape {
     KR_HOLE_POLYGON,
     KR_HOLE_SLOT
 };
-enum kr_outline { KR_OUTLINE_RECTANGLE, KR_OUTLINE_POLYGON, KR_OUTLINE_DISC, KR_OUTLINE_RING };
+enum kr_outline {
+    KR_OUTLINE_RECTANGLE,
+    KR_OUTLINE_POLYGON,
+    KR_OUTLINE_DISC,
+    KR_OUTLINE_RING,
+    KR_OUTLINE_CAD
+};
+enum kr_operation { KR_UNION, KR_DIFFERENCE };
+enum kr_pore { KR_PORE_CIRCLE, KR_PORE_ELLIPSE };
+enum kr_distribution { KR_UNIFORM, KR_NORMAL, KR_LOGNORMAL, KR_BY_AREA };
+enum kr_void_shape { KR_VOID_SPHERE, KR_VOID_ELLIPSOID, KR_VOID_CYLINDER, KR_VOID_STL };
 enum kr_partial_volume {
     KR_PARTIAL_VOLUME_HHB,
     KR_PARTIAL_VOLUME_NONE,
@@ -42,6 +56,7 @@ enum kr_surface_correction {
     KR_SURFACE_FORCE_DENSITY,
 };
 enum kr_deformation { KR_UNIAXIAL_Y, KR_UNIAXIAL_X, KR_ISOTROPIC, KR_MEAN_OVER_AXES };
+enum kr_precision { KR_DOUBLE, KR_MIXED };
 enum kr_model { KR_PLANE_STRESS, KR_PLANE_STRAIN, KR_SOLID };
 enum kr_micromodulus { KR_CONSTANT, KR_CONICAL };
 
@@ -58,18 +73,50 @@ struct kr_case_hole {
     double angle;         /* rad: turned about the centre, counter-clockwise */
 };
 
-/* The outline where it is not the whole rectangle of width by height. */
+/* The outline where it is not the whole rectangle of width by height, or a part of it. */
 struct kr_case_outline {
     int shape;                  /* enum kr_outline */
-    double centre[2], radius;   /* m: disc and ring */
+    double centre[2], radius;   /* m: disc and ring; centre of a rectangle; origin of a cad file */
     double inner_radius;        /* m: ring */
     struct kr_deck_list points; /* double, m: polygon */
-    double corner_radius;       /* m: polygon */
+    double corner_radius;       /* m: rectangle and polygon */
+    double size[2];             /* m: of a rectangle; zeros: width by height */
+    double angle;               /* rad: turned about the centre, counter-clockwise */
+    const char *file;           /* cad */
+    int has_centre;             /* the deck gives one; else the middle of width by height */
+    int operation;              /* enum kr_operation: what a part does to those before it */
+    const char *name;           /* of a part's edges as a boundary; NULL: outline */
+    struct kr_deck_list parts;  /* struct kr_case_outline: the outline is made of these, in turn */
+};
+
+/* A body given by its closed surface in an STL file. */
+struct kr_case_stl {
+    const char *file;
+    double unit;      /* m: what 1 in the file stands for */
+    double centre[3]; /* m: where its origin comes to lie */
+};
+
+/* A void in a solid. */
+struct kr_case_void {
+    double centre[3]; /* m; of an STL file: where its origin comes to lie */
+    int shape;        /* enum kr_void_shape */
+    double radius;    /* m: sphere and cylinder */
+    double radii[3];  /* m: half axes of an ellipsoid */
+    double length;    /* m: of a cylinder */
+    double axis[3];   /* direction of a cylinder, of any length */
+    const char *file; /* stl */
+    double unit;      /* m: stl */
 };
 
 struct kr_case_pores {
     int64_t count, seed, attempts;
+    double porosity;      /* instead of a count: area of the pores over that of the outline */
+    const char *file;     /* instead of random ones */
+    int shape;            /* enum kr_pore */
+    double aspect[2];     /* least and most ratio of an ellipse's half axes, long over short */
     double radius[2];     /* m: least and most */
+    int distribution;     /* enum kr_distribution, of the radius */
+    double mean, deviation; /* m: of a normal or lognormal one before it is cut off */
     double edge_diameters; /* distance of a centre from the edges, in diameters of the pore */
     double gap;           /* m: least distance between the rims of two pores */
 };
@@ -107,6 +154,9 @@ struct kr_case {
     double width, height; /* m: plate with its lower left corner at (0, 0) */
     struct kr_case_outline outline;
     struct kr_deck_list holes;  /* struct kr_case_hole */
+    double depth;               /* m: of a solid, from z = 0; 0: a plate */
+    struct kr_deck_list voids;  /* struct kr_case_void */
+    struct kr_case_stl body;    /* instead of outline and holes; no file: none */
     struct kr_case_pores pores; /* count 0: none */
 
     /* mesh */
@@ -139,6 +189,7 @@ struct kr_case {
     /* solver */
     double end_time;      /* s */
     double time_step;     /* s; 0: found */
+    int precision;        /* enum kr_precision */
     double safety_factor; /* of the largest stable step */
     double checkpoint_every; /* s of wall time; 0: only on signals */
 
@@ -183,8 +234,15 @@ void kr_case_check(struct kr_deck *deck, const struct kr_case *c);
 /** Dimensions of the body: 3 for a solid, else 2. */
 int kr_case_dim(const struct kr_case *c);
 
+/** Complete outline and pores: which centres were given, and files from the deck's folder. `c` must
+ *  be the struct that the deck was read into. */
+void kr_case_complete_geometry(struct kr_deck *deck, struct kr_case *c);
+
 /** The part of it that looks at outline, holes and pores. */
 void kr_case_check_geometry(struct kr_deck *deck, const struct kr_case *c);
+
+/** The part of it that looks at depth, voids and the body of an STL file. */
+void kr_case_check_solid(struct kr_deck *deck, const struct kr_case *c);
 
 /** Warn of what is doubtful in a case without faults. */
 void kr_case_warn(struct kr_deck *deck, const struct kr_case *c);
@@ -201,6 +259,17 @@ char *kr_case_file(const struct kr_case *c, const char *name);
 
 /** Radius [m] of a circle around a hole, and that circle's centre. */
 double kr_case_hole_reach(const struct kr_case_hole *hole, double centre[2]);
+
+/** The pores of a file, checked; owned by the caller. Lines of `x y radius` in metres (`x y long
+ *  short degrees` for ellipses); or, as the plates paper hands them to ANSYS (appendix 4), a first line
+ *  with their number and then lengths in millimetres. Stops (exit 2) and names the line. */
+struct kr_case_hole *kr_case_read_pores(const struct kr_case *c, const char *path, size_t *count);
+
+/** Whether the case has pores, by a count, a porosity or a file. */
+int kr_case_has_pores(const struct kr_case *c);
+
+/** Whether the outline is no more than the rectangle of width by height. */
+int kr_case_is_rectangle(const struct kr_case_outline *outline);
 
 /** All holes: those of the deck and, where `pores` is given, those that kirsch-pores left in
  *  pores.txt of the folder. Owned by the caller (kr_free). Stops if pores.txt is missing or bad. */

@@ -3,6 +3,7 @@
  * Checks of outline, holes and pores. What only the exact curves can tell (an edge that crosses
  * itself, a rounding that does not fit) kirsch-mesh finds out.
  */
+#include "base/memory.h"
 #include "case.h"
 
 #include <math.h>
@@ -28,6 +29,13 @@ double kr_case_hole_reach(const struct kr_case_hole *hole, double centre[2]) {
     return reach;
 }
 
+/* A path of the deck as seen from where the program runs; owned by the deck. */
+static const char *beside_deck(struct kr_deck *deck, const char *path) {
+    if (!path || !*path || *path == '/')
+        return path;
+    return kr_deck_keep(deck, kr_text("%s/%s", kr_deck_folder(deck), path));
+}
+
 /* ---- what each shape needs ---- */
 
 /* A key of a shape, and what it looks like where it is missing. */
@@ -37,7 +45,7 @@ struct part {
 };
 
 #define PART(type, field, example_) {#field, example_, offsetof(struct type, field)}
-enum { HOLE_PARTS = 9, OUTLINE_PARTS = 5 };
+enum { HOLE_PARTS = 9, OUTLINE_PARTS = 8 };
 static const struct part hole_part[HOLE_PARTS] = {
     PART(kr_case_hole, centre, "[10 mm, 5 mm]"), PART(kr_case_hole, radius, "2 mm"),
     PART(kr_case_hole, radii, "[2 mm, 1 mm]"),   PART(kr_case_hole, size, "[2 mm, 1 mm]"),
@@ -51,12 +59,16 @@ static const struct part outline_part[OUTLINE_PARTS] = {
     PART(kr_case_outline, inner_radius, "4 mm"),
     PART(kr_case_outline, points, "[[0 mm, 0 mm], [20 mm, 0 mm], [10 mm, 20 mm]]"),
     PART(kr_case_outline, corner_radius, "1 mm"),
+    PART(kr_case_outline, size, "[20 mm, 10 mm]"),
+    PART(kr_case_outline, angle, "30 deg"),
+    PART(kr_case_outline, file, "plate.step"),
 };
 
 /* A letter a part: n needed, o optional, - not of this shape. In the order of the words. */
 static const char *const hole_rules[] = {"nn-------", "n-n-----o", "n--n---oo", "o-----noo",
                                          "n---nn--o"};
-static const char *const outline_rules[] = {"-----", "---no", "on---", "onn--"};
+static const char *const outline_rules[] = {"o---ooo-", "o--no-o-", "on------", "onn-----",
+                                            "o-----on"};
 
 /* Hold the keys given against a rule; returns whether they keep it. */
 static int check_parts(struct kr_deck *deck, const void *from, size_t n, const struct part *part,
@@ -130,44 +142,144 @@ static void check_holes(struct kr_deck *deck, const struct kr_case *c) {
     }
 }
 
-static void check_outline(struct kr_deck *deck, const struct kr_case *c) {
-    const struct kr_case_outline *o = &c->outline;
-    const double *point = o->points.item;
+/* Where a corner of a rectangle or polygon of the outline comes to lie. */
+static void place_corner(const struct kr_case_outline *o, const double *corner, double place[2]) {
+    double cosine = cos(o->angle), sine = sin(o->angle);
+    place[0] = o->centre[0] + cosine * corner[0] - sine * corner[1];
+    place[1] = o->centre[1] + sine * corner[0] + cosine * corner[1];
+}
+
+static void check_corners(struct kr_deck *deck, const struct kr_case *c,
+                          const struct kr_case_outline *o) {
+    const double x = o->size[0] / 2, y = o->size[1] / 2;
+    const double corner[] = {-x, -y, x, -y, x, y, -x, y}, *point = o->points.item;
+    double place[2];
+    for (size_t k = 0; k < o->points.count; k += 2) {
+        place_corner(o, point + k, place);
+        if (beyond_plate(c, place) > 1e-9 * (c->width + c->height))
+            kr_deck_fault(deck, point + k, "the corner lies outside width by height, %g m x %g m",
+                          c->width, c->height);
+    }
+    if (!kr_deck_given(deck, o->size) || o->corner_radius > 0)
+        return; /* rounded corners may stay within */
+    for (size_t k = 0; k < 8; k += 2) {
+        place_corner(o, corner + k, place);
+        if (beyond_plate(c, place) > 1e-9 * (c->width + c->height)) {
+            kr_deck_fault(deck, o->size,
+                          "the corner at (%g, %g) m lies outside width by height, %g m x %g m",
+                          place[0], place[1], c->width, c->height);
+            return;
+        }
+    }
+}
+
+static void check_round(struct kr_deck *deck, const struct kr_case *c,
+                        const struct kr_case_outline *o) {
+    double x = o->centre[0], y = o->centre[1];
+    double room = fmin(fmin(x, c->width - x), fmin(y, c->height - y));
+    if (o->shape == KR_OUTLINE_RING && o->inner_radius >= o->radius)
+        kr_deck_fault(deck, &o->inner_radius, "%g m is not below the outer radius of %g m",
+                      o->inner_radius, o->radius);
+    if (o->operation == KR_UNION && o->radius > room * (1 + 1e-9))
+        kr_deck_fault(deck, &o->radius,
+                      "%g m does not fit into width by height: %g m are there around the "
+                      "centre",
+                      o->radius, room);
+}
+
+/* One shape: the outline itself, or a part of it. */
+static void check_shape(struct kr_deck *deck, const struct kr_case *c,
+                        const struct kr_case_outline *o) {
     char word[32];
     kr_case_word(KR_OUTLINE_WORDS, o->shape, word);
     if (o->shape < 0 ||
         !check_parts(deck, o, OUTLINE_PARTS, outline_part, outline_rules[o->shape], word) ||
         !check_points(deck, &o->points) || !(c->width > 0) || !(c->height > 0))
         return;
-    for (size_t k = 0; k < o->points.count; k += 2)
-        if (beyond_plate(c, point + k) > 0)
-            kr_deck_fault(deck, point + k, "the corner lies outside width by height, %g m x %g m",
-                          c->width, c->height);
-    if (o->shape == KR_OUTLINE_RING && o->inner_radius >= o->radius)
-        kr_deck_fault(deck, &o->inner_radius, "%g m is not below the outer radius of %g m",
-                      o->inner_radius, o->radius);
-    if (o->radius > 0) {
-        int given = kr_deck_given(deck, o->centre);
-        double x = given ? o->centre[0] : c->width / 2, y = given ? o->centre[1] : c->height / 2;
-        double room = fmin(fmin(x, c->width - x), fmin(y, c->height - y));
-        if (o->radius > room * (1 + 1e-9))
-            kr_deck_fault(deck, &o->radius,
-                          "%g m does not fit into width by height: %g m are there around the "
-                          "centre",
-                          o->radius, room);
+    if (o->shape == KR_OUTLINE_RECTANGLE && !kr_deck_given(deck, o->size) &&
+        (kr_deck_given(deck, o->centre) || o->angle != 0))
+        kr_deck_fault(deck, o, "a rectangle of all of width by height has no centre and no angle; "
+                               "give its size, too");
+    if (o->operation == KR_UNION)
+        check_corners(deck, c, o);
+    if (o->radius > 0)
+        check_round(deck, c, o);
+}
+
+static void check_part_name(struct kr_deck *deck, const struct kr_case_outline *part) {
+    static const char *const taken[] = {"left", "right", "bottom", "top", "plate"};
+    int is_taken = part->name && !strncmp(part->name, "hole_", 5);
+    for (size_t k = 0; part->name && k < sizeof taken / sizeof *taken; k++)
+        is_taken |= !strcmp(part->name, taken[k]);
+    if (is_taken)
+        kr_deck_fault(deck, &part->name, "'%s' is the name of another boundary; take one of its own",
+                      part->name);
+}
+
+static void check_outline(struct kr_deck *deck, const struct kr_case *c) {
+    const struct kr_case_outline *o = &c->outline, *part = o->parts.item;
+    if (!o->parts.given) {
+        check_shape(deck, c, o);
+        return;
     }
+    for (size_t k = 0; k < OUTLINE_PARTS; k++)
+        if (kr_deck_given(deck, (const char *)o + outline_part[k].offset) ||
+            kr_deck_given(deck, &o->shape)) {
+            kr_deck_fault(deck, &o->parts, "an outline of parts has no shape of its own; make it "
+                                           "the first part");
+            break;
+        }
+    if (!o->parts.count)
+        kr_deck_fault(deck, &o->parts, "found no part, expected one or more");
+    for (size_t k = 0; k < o->parts.count; k++) {
+        check_shape(deck, c, &part[k]);
+        check_part_name(deck, &part[k]);
+    }
+    if (o->parts.count && part[0].operation == KR_DIFFERENCE)
+        kr_deck_fault(deck, &part[0].operation,
+                      "before the first part there is nothing to take it from; begin with a union");
+}
+
+static void check_distribution(struct kr_deck *deck, const struct kr_case_pores *pores) {
+    int by_mean = pores->distribution == KR_NORMAL || pores->distribution == KR_LOGNORMAL;
+    const double *value[] = {&pores->mean, &pores->deviation};
+    static const char *const name[] = {"mean", "deviation"};
+    char word[32];
+    if (pores->distribution < 0)
+        return;
+    kr_case_word(KR_DISTRIBUTION_WORDS, pores->distribution, word);
+    for (int k = 0; k < 2; k++)
+        if (by_mean && !kr_deck_given(deck, value[k]))
+            kr_deck_fault(deck, value[k], "missing; expected %s of the radius, such as '0.3 mm', for "
+                                          "distribution %s", name[k], word);
+        else if (!by_mean && kr_deck_given(deck, value[k]))
+            kr_deck_fault(deck, value[k], "distribution %s has no %s", word, name[k]);
+    if (pores->shape == KR_PORE_ELLIPSE && !kr_deck_given(deck, pores->aspect))
+        kr_deck_fault(deck, pores->aspect,
+                      "missing; expected least and largest ratio of the half axes, such as [1, 2], "
+                      "for shape ellipse");
+    else if (pores->shape == KR_PORE_CIRCLE && kr_deck_given(deck, pores->aspect))
+        kr_deck_fault(deck, pores->aspect, "shape circle has no aspect");
+    else if (pores->aspect[0] > pores->aspect[1])
+        kr_deck_fault(deck, pores->aspect, "the least, %g, is more than the largest, %g",
+                      pores->aspect[0], pores->aspect[1]);
 }
 
 static void check_pores(struct kr_deck *deck, const struct kr_case *c) {
     const struct kr_case_pores *pores = &c->pores;
     double least = pores->radius[0], most = pores->radius[1];
-    if (!pores->count)
+    int has_file = pores->file && *pores->file;
+    if ((pores->count > 0) + (pores->porosity > 0) + has_file > 1)
+        kr_deck_fault(deck, has_file ? (const void *)&pores->file : &pores->porosity,
+                      "pores are given by just one of count, porosity and file");
+    if (has_file || (!pores->count && !(pores->porosity > 0)))
         return;
     if (!kr_deck_given(deck, pores->radius)) {
         kr_deck_fault(deck, pores->radius,
                       "missing; expected least and largest radius, such as [0.2 mm, 0.5 mm]");
         return;
     }
+    check_distribution(deck, pores);
     if (least > most)
         kr_deck_fault(deck, pores->radius, "the least, %g m, is more than the largest, %g m", least,
                       most);
@@ -178,6 +290,34 @@ static void check_pores(struct kr_deck *deck, const struct kr_case *c) {
         kr_deck_fault(deck, &pores->count,
                       "%lld pores of %g m in radius have more area than the plate",
                       (long long)pores->count, least);
+    else if (pores->porosity * c->width * c->height > 1e6 * M_PI * most * most)
+        kr_deck_fault(deck, &pores->porosity, "it takes more than a million pores of %g m", most);
+}
+
+/* ---- what the deck leaves open ---- */
+
+static void complete_shape(struct kr_deck *deck, const struct kr_case *c,
+                           struct kr_case_outline *o) {
+    int about_middle = o->shape != KR_OUTLINE_POLYGON && o->shape != KR_OUTLINE_CAD;
+    o->has_centre = kr_deck_given(deck, o->centre);
+    if (!o->has_centre && about_middle) {
+        o->centre[0] = c->width / 2;
+        o->centre[1] = c->height / 2;
+    }
+    o->file = beside_deck(deck, o->file);
+}
+
+void kr_case_complete_geometry(struct kr_deck *deck, struct kr_case *c) {
+    struct kr_case_outline *part = c->outline.parts.item;
+    complete_shape(deck, c, &c->outline);
+    for (size_t k = 0; k < c->outline.parts.count; k++)
+        complete_shape(deck, c, &part[k]);
+    c->pores.file = beside_deck(deck, c->pores.file);
+}
+
+int kr_case_is_rectangle(const struct kr_case_outline *o) {
+    return !o->parts.count && o->shape == KR_OUTLINE_RECTANGLE && !(o->size[0] > 0) &&
+           !(o->corner_radius > 0);
 }
 
 void kr_case_check_geometry(struct kr_deck *deck, const struct kr_case *c) {

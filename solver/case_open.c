@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * From the command line to a case: arguments, deck, folder, holes.
+ * From the command line to a case: arguments, deck, folder.
  */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/provenance.h"
-#include "base/unit.h"
 #include "case.h"
 
 #include <errno.h>
@@ -159,6 +158,7 @@ struct kr_deck *kr_case_open(const struct kr_case_arguments *arguments, struct k
         kr_deck_open(arguments->deck, arguments->variant, arguments->n_set, arguments->set);
     kr_deck_read(deck, kr_case_keys, out);
     kr_case_preset(deck, out);
+    kr_case_complete_geometry(deck, out);
     kr_case_check(deck, out);
     kr_deck_finish(deck);
     kr_case_warn(deck, out);
@@ -179,80 +179,4 @@ char *kr_case_file(const struct kr_case *c, const char *name) {
     size_t length = strlen(c->folder);
     int slashed = length && c->folder[length - 1] == '/';
     return kr_text("%s%s%s", c->folder, slashed ? "" : "/", name);
-}
-
-/* ---- holes ---- */
-
-/* Read a line "x y radius"; 1 for a hole, 0 for a line without one, -1 if it is bad. */
-static int read_hole(const char *line, struct kr_case_hole *hole) {
-    double *into[] = {&hole->centre[0], &hole->centre[1], &hole->radius};
-    const char *blank = " \t\r\n";
-    line += strspn(line, blank);
-    if (!*line || *line == '#')
-        return 0;
-    for (int i = 0; i < 3; i++) {
-        const char *end = kr_unit_number(line, into[i]);
-        if (!end || (*end && !strchr(" \t\r\n#", *end)))
-            return -1;
-        line = end + strspn(end, blank);
-    }
-    return !*line || *line == '#' ? 1 : -1;
-}
-
-/* Stop unless a hole of pores.txt is a hole of this plate. */
-static void check_hole(const struct kr_case *c, const struct kr_case_hole *hole, const char *path,
-                       size_t line) {
-    double x = fmax(fmax(-hole->centre[0], hole->centre[0] - c->width), 0);
-    double y = fmax(fmax(-hole->centre[1], hole->centre[1] - c->height), 0);
-    if (!(hole->radius > 0) || 2 * hole->radius > fmax(c->width, c->height))
-        kr_stop(KR_EXIT_INPUT,
-                "%s:%zu: found a radius of %g m, expected one above 0 that fits the plate", path,
-                line, hole->radius);
-    if (hypot(x, y) >= hole->radius)
-        kr_stop(KR_EXIT_INPUT, "%s:%zu: the pore at (%g, %g) m lies outside the plate", path, line,
-                hole->centre[0], hole->centre[1]);
-}
-
-/* Append the pores of a file to the holes. */
-static struct kr_case_hole *read_pores(const struct kr_case *c, const char *path,
-                                       struct kr_case_hole *holes, size_t *count) {
-    FILE *file = fopen(path, "r");
-    char *line = NULL;
-    size_t room = *count, line_room = 0;
-    if (!file)
-        kr_stop(KR_EXIT_INPUT, "%s cannot be read: %s; kirsch-pores makes it", path,
-                strerror(errno));
-    for (size_t number = 1; getline(&line, &line_room, file) >= 0; number++) {
-        struct kr_case_hole hole = {.radius = 0};
-        int found = read_hole(line, &hole);
-        if (found < 0)
-            kr_stop(KR_EXIT_INPUT, "%s:%zu: found '%.*s', expected 'x y radius' in metres", path,
-                    number, (int)strcspn(line, "\r\n"), line);
-        if (!found)
-            continue;
-        check_hole(c, &hole, path, number);
-        KR_GROW(holes, *count, room);
-        holes[(*count)++] = hole;
-    }
-    if (ferror(file))
-        kr_stop(KR_EXIT_INPUT, "%s cannot be read to its end: %s", path, strerror(errno));
-    free(line);
-    fclose(file);
-    return holes;
-}
-
-struct kr_case_hole *kr_case_holes(const struct kr_case *c, size_t *count) {
-    struct kr_case_hole *holes = KR_NEW(struct kr_case_hole, c->holes.count);
-    *count = c->holes.count;
-    if (*count)
-        memcpy(holes, c->holes.item, *count * sizeof *holes);
-    if (!c->pores.count)
-        return holes;
-    char *path = kr_case_file(c, "pores.txt");
-    holes = read_pores(c, path, holes, count);
-    if (*count - c->holes.count != (size_t)c->pores.count)
-        kr_warn("%s has %zu pores, the deck asks for %lld", path, *count - c->holes.count,
-                (long long)c->pores.count);
-    kr_free(path);
-    return holes;
 }

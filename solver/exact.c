@@ -77,8 +77,8 @@ static void pair_product(const struct kr_kernel_work *work, const struct kr_bond
                          double product[3]) {
     const struct kr_bonds *b = work->bonds;
     const struct kr_material *m = &b->material;
-    double volume = kr_material_micromodulus(m, bond->length) * weight_of(b, bond) *
-                    b->volume[bond->j] / bond->length;
+    double c = kr_material_micromodulus(m, bond->length);
+    double volume = c * weight_of(b, bond) * b->volume[bond->j] / bond->length;
     double v[3], unit[3], along = 0;
     for (int d = 0; d < b->dim; d++) {
         v[d] = work->v[d][bond->j] - work->v[d][bond->i];

@@ -19,7 +19,7 @@
  * Damage costs nothing here: the loop only notes that some bond of a slice left the range, and
  * exact.c does that slice again, bond by bond. The readable form of this loop is there, too.
  *
- * Mixed precision (KR_MIXED): positions, displacements and their differences are double, what is made
+ * Mixed precision (KR_FLOAT): positions, displacements and their differences are double, what is made
  * of the differences is float, and so are the sums over a family.
  * How fast: docs/performance.md.
  */
@@ -35,7 +35,7 @@ enum { WIDTH = 4 };
 enum { WIDTH = 2 };
 #endif
 
-#ifdef KR_MIXED
+#ifdef KR_FLOAT
 typedef float number;
 typedef int32_t integer;
 #else
@@ -55,6 +55,13 @@ typedef double doubles_anywhere __attribute__((vector_size(WIDTH * 8), aligned(8
 typedef float floats_anywhere __attribute__((vector_size(WIDTH * 4), aligned(4), may_alias));
 
 #define INLINE static inline __attribute__((always_inline))
+
+/* In float32, e is off by some 1e-7: slices are flagged a little before a bond breaks. */
+#ifdef KR_FLOAT
+static const number EARLY = 1 - 1e-5f;
+#else
+static const number EARLY = 1;
+#endif
 
 /* What a loop sums. */
 enum what { FORCE, ENERGY, PRODUCT };
@@ -170,7 +177,7 @@ INLINE void add_rows(struct lanes l[COUNT], const struct kr_kernel_work *work, s
         e[p] = q * row[p].inverse_square;
         if (!shape.whole)
             e[p] = only(e[p], row[p].keep);
-        l[p].left |= (mask)((number)b->flag_above - e[p]) | (mask)(e[p] - (number)b->flag_below);
+        l[p].left |= (mask)(EARLY * (number)b->flag_above - e[p]) | (mask)(e[p] - (number)b->flag_below);
         both[p] = row[p].scale * (l[p].factor + narrow(load(b->factor + row[p].j)));
     }
     polynomial(shape.terms, fit->coefficient, e, pull);
@@ -190,7 +197,7 @@ INLINE void add_rows(struct lanes l[COUNT], const struct kr_kernel_work *work, s
 
 /* A row of a lattice slice; row->j is set. */
 INLINE void lattice_row(const struct kr_bonds *b, struct shape shape, size_t r, struct row *row) {
-#ifdef KR_MIXED
+#ifdef KR_FLOAT
     const struct kr_bond_geometry32 *g = &b->kinds[b->kind[r]].rounded;
 #else
     const struct kr_bond_geometry *g = &b->kinds[b->kind[r]].geometry;

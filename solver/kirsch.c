@@ -87,6 +87,19 @@ static uint64_t hash_file(uint64_t hash, const struct kr_case *c, const char *na
     return hash;
 }
 
+/* Files that the deck's geometry names. */
+static uint64_t hash_geometry(uint64_t hash, const struct kr_case *c) {
+    const struct kr_case_outline *part = c->outline.parts.item;
+    if (c->pores.file && *c->pores.file)
+        hash = hash_path(hash, c->pores.file);
+    if (c->outline.file && *c->outline.file)
+        hash = hash_path(hash, c->outline.file);
+    for (size_t k = 0; k < c->outline.parts.count; k++)
+        if (part[k].file && *part[k].file)
+            hash = hash_path(hash, part[k].file);
+    return hash;
+}
+
 static uint64_t stamp_of(const struct job *job, const struct step *step) {
     char *sections = kr_deck_resolved(job->deck, step->sections);
     uint64_t hash = hash_text(hash_text(KR_HASH_BEGIN, kr_version()), sections);
@@ -94,6 +107,8 @@ static uint64_t stamp_of(const struct job *job, const struct step *step) {
         hash = hash_path(hash, job->mesh);
     for (int k = 0; k < 4 && step->inputs[k]; k++)
         hash = hash_file(hash, &job->c, step->inputs[k]);
+    if (step == &steps[PORES] || step == &steps[MESH])
+        hash = hash_geometry(hash, &job->c);
     kr_free(sections);
     return hash;
 }
@@ -215,7 +230,7 @@ static void run_steps(const struct job *job) {
     int behind = job->force;
     for (int k = 0; k < STEPS; k++) {
         const struct step *step = &steps[k];
-        if ((k == PORES && !job->c.pores.count) || (k <= MESH && job->mesh))
+        if ((k == PORES && !kr_case_has_pores(&job->c)) || (k <= MESH && job->mesh))
             continue;
         if (!behind && is_up_to_date(job, step)) {
             kr_say("%s is up to date", step->program);

@@ -22,10 +22,10 @@ struct kr_set {
 struct kr_nodes_made_for {
     double horizon;              /* m; 0: no factors */
     char model[32];              /* "plane-stress" */
-    char micromodulus[32];       /* "constant" */
     char partial_volume[32];     /* "hhb" */
     char surface_correction[32]; /* "energy" */
     char deformation[32];        /* "uniaxial-y" */
+    char micromodulus[32];       /* "constant", which empty stands for, too */
 };
 
 /** How the factor of a bond is made of its two nodes': their mean, their harmonic mean, or an ellipse

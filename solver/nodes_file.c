@@ -28,7 +28,8 @@ static void write_sets(const struct kr_nodes *nodes, struct kr_h5 *file) {
 static void write_made_for(const struct kr_nodes *nodes, struct kr_h5 *file) {
     kr_h5_set_double(file, "/", "horizon", nodes->made_for.horizon);
     kr_h5_set_text(file, "/", "model", nodes->made_for.model);
-    kr_h5_set_text(file, "/", "micromodulus", nodes->made_for.micromodulus);
+    kr_h5_set_text(file, "/", "micromodulus",
+                   *nodes->made_for.micromodulus ? nodes->made_for.micromodulus : "constant");
     kr_h5_set_text(file, "/", "partial_volume", nodes->made_for.partial_volume);
     kr_h5_set_text(file, "/", "surface_correction", nodes->made_for.surface_correction);
     kr_h5_set_text(file, "/", "deformation", nodes->made_for.deformation);

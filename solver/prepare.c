@@ -119,6 +119,8 @@ struct kr_run *kr_run_create(struct kr_deck *deck, const struct kr_case *c) {
         run->precrack += kr_bonds_cut(run->bonds, crack[k].from, crack[k].to, c->count_precrack);
     mark_no_fail(c, run->nodes, run->bonds);
     run->body = kr_body_create(run->bonds);
+    if (c->precision == KR_MIXED)
+        kr_body_mix(run->body);
     run->boundary = kr_boundary_create(deck, c, run->nodes);
     kr_deck_finish(deck);
     struct kr_bonds_size size = kr_bonds_size(run->bonds);

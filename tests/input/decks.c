@@ -184,7 +184,7 @@ static const struct row {
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_section_as_a_text", "solver: {end_time: 50 us}", "solver: fast", NULL, NULL,
      "case.yaml:27:9: solver: found 'fast', expected a section with end_time, time_step, "
-     "safety_factor, checkpoint_every\n"
+     "precision, safety_factor, checkpoint_every\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_map_as_a_list",
      "  sets:\n    top: {within: 0.3 mm, of: top}\n    bottom: {within: 0.3 mm, of: bottom}",
@@ -311,6 +311,41 @@ static const struct row {
     {"deck_hole_larger_than_the_plate", "radius: 2 mm", "radius: 26 mm", NULL, NULL,
      "case.yaml:6:42: geometry.holes.0.radius: the hole's diameter of 0.052 m is more than the "
      "plate's longer side\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_pores_by_two_words", "count: 3,", "count: 3, porosity: 0.1,", NULL, NULL,
+     "case.yaml:7:31: geometry.pores.porosity: pores are given by just one of count, porosity and "
+     "file\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_pores_normal_without_mean", "count: 3,", "count: 3, distribution: normal, mean: 0.3 mm,",
+     NULL, NULL,
+     "case.yaml:7:11: geometry.pores.deviation: missing; expected deviation of the radius, such as "
+     "'0.3 mm', for distribution normal\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_pores_round_with_aspect", "count: 3,", "count: 3, aspect: [1, 2],", NULL, NULL,
+     "case.yaml:7:30: geometry.pores.aspect: shape circle has no aspect\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_outline_beginning_with_a_difference", "  pores:",
+     "  outline: {parts: [{operation: difference}]}\n  pores:", NULL, NULL,
+     "case.yaml:7:33: geometry.outline.parts.0.operation: before the first part there is nothing to "
+     "take it from; begin with a union\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_outline_of_shape_and_parts", "  pores:",
+     "  outline: {radius: 1 mm, parts: [{shape: rectangle}]}\n  pores:", NULL, NULL,
+     "case.yaml:7:36: geometry.outline.parts: an outline of parts has no shape of its own; make it "
+     "the first part\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_outline_part_named_as_a_side", "  pores:",
+     "  outline: {parts: [{shape: rectangle, name: left}]}\n  pores:", NULL, NULL,
+     "case.yaml:7:46: geometry.outline.parts.0.name: 'left' is the name of another boundary; take "
+     "one of its own\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_outline_part_beyond_the_frame", "  pores:",
+     "  outline: {parts: [{shape: rectangle, size: [60 mm, 2 mm]}]}\n  pores:", NULL, NULL,
+     "case.yaml:7:47: geometry.outline.parts.0.size: the corner at (-0.005, 0.0115) m lies outside "
+     "width by height, 0.05 m x 0.025 m\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_outline_of_cad_without_file", "  pores:", "  outline: {shape: cad}\n  pores:", NULL, NULL,
+     "case.yaml:7:13: geometry.outline.file: missing; expected file: plate.step for shape cad\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_pores_without_radius", "pores: {count: 3, radius: [0.2 mm, 0.5 mm]}",
      "pores: {count: 3}", NULL, NULL,

@@ -341,10 +341,10 @@ static void random_pores_are_filled(void **unused) {
                                       .radius = {0.2e-3, 1.2e-3},
                                       .edge_diameters = 0.6,
                                       .gap = 0.1e-3}};
-        struct kr_case_hole pore[16];
         struct kr_plate_report report;
-        int64_t throws;
-        assert_int_equal(kr_pores_throw(&c, pore, &throws), 16);
+        struct kr_pores thrown = kr_pores_throw(&c);
+        const struct kr_case_hole *pore = thrown.hole;
+        assert_int_equal(thrown.placed, 16);
         struct kr_plate plate = {20e-3, 10e-3, 0.1e-3,      0.15e-3, KR_GRID_NEAR_BOUNDARY,
                                  16,    pore,  {gmsh, 0, 0}};
         struct kr_mesh *mesh = kr_plate_mesh(&plate, &report);
@@ -357,6 +357,7 @@ static void random_pores_are_filled(void **unused) {
         scatter = fmax(scatter, q.variation);
         kr_mesh_free(mesh);
         kr_plate_report_free(&report);
+        kr_pores_free(&thrown);
     }
     kr_figure("16 pores, 5 seeds: smallest cell %.2f spacings squared, scatter up to %.2f, %.1f s",
               least, scatter, seconds);

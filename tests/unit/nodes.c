@@ -60,7 +60,7 @@ static struct kr_nodes *make_nodes(void) {
     add_set(nodes, "third", 1, 3, 0.959e-3);
     add_set(nodes, "nobody", nodes->n, 1, 0);
     nodes->made_for =
-        (struct kr_nodes_made_for){0.41e-3, "plane-strain", "conical", "hhb", "energy", "isotropic"};
+        (struct kr_nodes_made_for){0.41e-3, "plane-strain", "hhb", "energy", "isotropic", "conical"};
     return nodes;
 }
 

@@ -5,6 +5,7 @@
  */
 #include "test.h"
 
+#include "pore_size.h"
 #include "pores.h"
 
 /* Places are whole nanometres and the rules hold for them exactly; metres in double precision
@@ -20,6 +21,17 @@ static struct kr_case plate(int64_t count, int64_t seed) {
                                       .radius = {0.75e-3, 1.5e-3},
                                       .edge_diameters = 1,
                                       .gap = 0.3e-3}};
+}
+
+/** Throw all pores of a case; returns how many were placed. */
+static size_t throw_all(const struct kr_case *c, struct kr_case_hole *pore, int64_t *throws) {
+    struct kr_pores got = kr_pores_throw(c);
+    size_t placed = got.placed;
+    if (placed)
+        memcpy(pore, got.hole, placed * sizeof *pore);
+    *throws = got.throws;
+    kr_pores_free(&got);
+    return placed;
 }
 
 static void check_edges(const struct kr_case *c, const struct kr_case_hole *pore, double room) {
@@ -51,7 +63,7 @@ static void pores_obey_the_rules_for_200_seeds(void **unused) {
         struct kr_case c = plate(30, seed);
         struct kr_case_hole pore[30];
         int64_t throws;
-        assert_int_equal(kr_pores_throw(&c, pore, &throws), 30);
+        assert_int_equal(throw_all(&c, pore, &throws), 30);
         assert_true(throws >= 30 && throws <= 100000);
         check_rules(&c, pore, 30);
     }
@@ -66,7 +78,7 @@ static void pores_keep_clear_of_the_decks_holes(void **unused) {
         struct kr_case_hole pore[12];
         int64_t throws;
         c.holes = (struct kr_deck_list){2, hole, 1};
-        assert_int_equal(kr_pores_throw(&c, pore, &throws), 12);
+        assert_int_equal(throw_all(&c, pore, &throws), 12);
         check_rules(&c, pore, 12);
     }
 }
@@ -78,7 +90,7 @@ static void pores_never_touch_the_edges(void **unused) {
         struct kr_case_hole pore[20];
         int64_t throws;
         c.pores.edge_diameters = 0;
-        assert_int_equal(kr_pores_throw(&c, pore, &throws), 20);
+        assert_int_equal(throw_all(&c, pore, &throws), 20);
         for (size_t k = 0; k < 20; k++)
             check_edges(&c, &pore[k], pore[k].radius + c.pores.gap);
     }
@@ -90,7 +102,7 @@ static void a_seed_means_these_pores(void **unused) {
     struct kr_case c = plate(3, 3);
     struct kr_case_hole pore[3];
     int64_t throws;
-    kr_pores_throw(&c, pore, &throws);
+    throw_all(&c, pore, &throws);
     kr_check_near(pore[0].centre[0], 0.012099424, 0);
     kr_check_near(pore[0].centre[1], 0.007475807, 0);
     kr_check_near(pore[0].radius, 0.001209559, 0);
@@ -102,9 +114,9 @@ static void equal_seeds_give_equal_pores_and_others_do_not(void **unused) {
     struct kr_case c = plate(30, 17), d = plate(30, 18);
     struct kr_case_hole one[30], two[30], three[30];
     int64_t throws;
-    kr_pores_throw(&c, one, &throws);
-    kr_pores_throw(&c, two, &throws);
-    kr_pores_throw(&d, three, &throws);
+    throw_all(&c, one, &throws);
+    throw_all(&c, two, &throws);
+    throw_all(&d, three, &throws);
     assert_memory_equal(one, two, sizeof one);
     assert_memory_not_equal(one, three, sizeof one);
 }
@@ -114,7 +126,7 @@ static void nine_decimals_give_each_number_back(void **unused) {
     struct kr_case c = plate(30, 4);
     struct kr_case_hole pore[30];
     int64_t throws;
-    kr_pores_throw(&c, pore, &throws);
+    throw_all(&c, pore, &throws);
     for (size_t k = 0; k < 30; k++) {
         char text[32];
         snprintf(text, sizeof text, "%.9f", pore[k].centre[0]);
@@ -132,12 +144,49 @@ static void radii_and_places_are_even(void **unused) {
         struct kr_case c = plate(1, seed);
         struct kr_case_hole pore;
         int64_t throws;
-        kr_pores_throw(&c, &pore, &throws);
+        throw_all(&c, &pore, &throws);
         radius += pore.radius / 3000;
         x += (pore.centre[0] - c.width / 2) / (c.width / 2 - 2 * pore.radius) / 3000;
     }
     kr_check_near(radius, 1.125e-3, 4 * 0.75e-3 / sqrt(12.0 * 3000));
     kr_check_near(x, 0, 4 * 2 / sqrt(12.0 * 3000));
+}
+
+/** Mean and standard deviation of 20000 radii of a distribution. */
+static void moments_of(int distribution, double mean, double deviation, double least, double most,
+                       double moment[2]) {
+    struct kr_case_pores p = {.distribution = distribution,
+                              .mean = mean,
+                              .deviation = deviation,
+                              .radius = {least, most}};
+    uint64_t state = 77;
+    double sum = 0, squares = 0;
+    enum { DRAWS = 20000 };
+    for (int k = 0; k < DRAWS; k++) {
+        double r = 1e-9 * (double)kr_pore_size_draw(&p, &state).radius;
+        assert_true(r >= least - 1e-12 && r <= most + 1e-12);
+        sum += r / DRAWS;
+        squares += r * r / DRAWS;
+    }
+    moment[0] = sum;
+    moment[1] = sqrt(squares - sum * sum);
+}
+
+/** Against closed formulas, within 4 standard errors (of the mean d/sqrt(n), of d about as much). */
+static void radii_follow_their_distribution(void **unused) {
+    (void)unused;
+    const double error = 4 / sqrt(20000);
+    double m[2];
+    moments_of(KR_NORMAL, 1e-3, 0.1e-3, 0.5e-3, 1.5e-3, m); /* cut off at 5 deviations: as good as whole */
+    kr_check_near(m[0], 1e-3, 0.1e-3 * error);
+    kr_check_near(m[1], 0.1e-3, 0.1e-3 * error);
+    moments_of(KR_NORMAL, 1e-3, 0.3e-3, 1e-3, 9e-3, m); /* the upper half: m + d sqrt(2/pi) */
+    kr_check_near(m[0], 1e-3 + 0.3e-3 * sqrt(2 / M_PI), 0.3e-3 * error);
+    moments_of(KR_LOGNORMAL, 1e-3, 0.4e-3, 0.05e-3, 20e-3, m);
+    kr_check_near(m[0], 1e-3, 0.4e-3 * error);
+    kr_check_near(m[1], 0.4e-3, 0.4e-3 * 2 * error); /* its tail weighs more */
+    moments_of(KR_BY_AREA, 0, 0, 1e-3, 2e-3, m); /* (2/3)(8 - 1)/(4 - 1) */
+    kr_check_near(m[0], 14e-3 / 9, 0.29e-3 * error);
 }
 
 static void an_impossible_request_ends(void **unused) {
@@ -146,12 +195,12 @@ static void an_impossible_request_ends(void **unused) {
     struct kr_case_hole *pore = KR_NEW(struct kr_case_hole, 400);
     int64_t throws;
     c.pores.attempts = 5000;
-    size_t placed = kr_pores_throw(&c, pore, &throws);
+    size_t placed = throw_all(&c, pore, &throws);
     assert_int_equal(throws, 5000);
     assert_true(placed > 60 && placed < 200);
     check_rules(&c, pore, placed);
     c.pores.edge_diameters = 20; /* no place at all */
-    assert_int_equal(kr_pores_throw(&c, pore, &throws), 0);
+    assert_int_equal(throw_all(&c, pore, &throws), 0);
     kr_free(pore);
     assert_int_equal(kr_memory_outstanding(), 0);
 }
@@ -165,6 +214,7 @@ int main(void) {
         cmocka_unit_test(equal_seeds_give_equal_pores_and_others_do_not),
         cmocka_unit_test(nine_decimals_give_each_number_back),
         cmocka_unit_test(radii_and_places_are_even),
+        cmocka_unit_test(radii_follow_their_distribution),
         cmocka_unit_test(an_impossible_request_ends),
     };
     kr_run_tests(tests);

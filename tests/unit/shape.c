@@ -86,14 +86,18 @@ static void inside_and_distance_agree_with_formulas(void **unused) {
 
 /** What is left of a plate of 20 by 10 when holes are cut out. */
 static struct kr_shape cut(size_t n, const struct kr_case_hole *hole) {
-    struct kr_curve frame = kr_curve_frame(20, 10), *curve = KR_NEW(struct kr_curve, n);
-    for (size_t h = 0; h < n; h++)
-        curve[h] = kr_curve_of_hole(&hole[h], 1, 4 + (int)h, "a hole");
-    struct kr_shape body = kr_shape_cut(&(struct kr_shape){1, &frame}, n, curve);
-    for (size_t h = 0; h < n; h++)
+    struct kr_curve *curve = KR_NEW(struct kr_curve, n + 1);
+    struct kr_layer *layer = KR_NEW(struct kr_layer, n + 1);
+    for (size_t h = 0; h <= n; h++) {
+        curve[h] = h ? kr_curve_of_hole(&hole[h - 1], 1, 3 + (int)h, "a hole")
+                     : kr_curve_frame(20, 10);
+        layer[h] = (struct kr_layer){{1, &curve[h]}, h > 0};
+    }
+    struct kr_shape body = kr_shape_cut(n + 1, layer);
+    for (size_t h = 0; h <= n; h++)
         kr_curve_free(&curve[h]);
     kr_free(curve);
-    kr_curve_free(&frame);
+    kr_free(layer);
     return body;
 }
 
