@@ -382,7 +382,8 @@ struct kr_bonds *kr_bonds_create(const struct kr_nodes *nodes, const struct kr_m
     *b = (struct kr_bonds){.dim = nodes->dim, .n = nodes->n, .material = *material};
     b->n_slices = (nodes->n + KR_LANES - 1) / KR_LANES;
     allocate_nodes(b, nodes);
-    b->fit = kr_fit_make(material);
+    b->fit = kr_fit_make(material, KR_FIT_DOUBLE);
+    b->fit_mixed = kr_fit_make(material, KR_FIT_MIXED);
     double s0 = material->critical_stretch;
     b->flag_below = -b->fit.range;
     b->flag_above = isfinite(s0) ? fmin(s0 * (2 + s0) * (1 - 1e-12), b->fit.range) : b->fit.range;

@@ -60,7 +60,7 @@ struct kr_bonds {
     size_t n, n_slices, n_rows;
     size_t count;              /* living bonds at the start, each pair counted from both ends */
     struct kr_material material;
-    struct kr_fit fit;
+    struct kr_fit fit, fit_mixed; /* fit_mixed: the shorter ones of mixed precision */
     double flag_above, flag_below; /* e outside of these: the slice takes the exact loop */
 
     /* per node; padded arrays of kr_bonds_padded */

@@ -118,6 +118,14 @@ INLINE int any_sign(mask m) {
     return all < 0;
 }
 
+INLINE const struct kr_fit *fit_of(const struct kr_bonds *b) {
+#ifdef KR_FLOAT
+    return &b->fit_mixed;
+#else
+    return &b->fit;
+#endif
+}
+
 INLINE void polynomial(int terms, const double *coefficient, const vector *e, vector *value) {
     for (int p = 0; p < COUNT; p++)
         value[p] = same(coefficient[terms - 1]);
@@ -149,7 +157,7 @@ INLINE void add_products(struct lanes l[COUNT], const struct kr_kernel_work *wor
                          struct shape shape, const struct row row[COUNT], const vector *e,
                          const vector *both, const vector *pull, vector stretched[COUNT][3]) {
     vector tangent[COUNT];
-    polynomial(shape.terms, work->bonds->fit.tangent.coefficient, e, tangent);
+    polynomial(shape.terms, fit_of(work->bonds)->tangent.coefficient, e, tangent);
     for (int p = 0; p < COUNT; p++) {
         vector v[3], along = {0}, turned = tangent[p] * both[p] * row[p].inverse_square;
         for (int d = 0; d < shape.dim; d++) {
@@ -165,7 +173,7 @@ INLINE void add_products(struct lanes l[COUNT], const struct kr_kernel_work *wor
 INLINE void add_rows(struct lanes l[COUNT], const struct kr_kernel_work *work, struct shape shape,
                      const struct row row[COUNT]) {
     const struct kr_bonds *b = work->bonds;
-    const struct kr_polynomial *fit = shape.what == ENERGY ? &b->fit.store : &b->fit.pull;
+    const struct kr_polynomial *fit = shape.what == ENERGY ? &fit_of(b)->store : &fit_of(b)->pull;
     vector stretched[COUNT][3], e[COUNT], both[COUNT], pull[COUNT];
     for (int p = 0; p < COUNT; p++) {
         vector q = {0};
@@ -345,9 +353,11 @@ INLINE void do_slices(const struct kr_kernel_work *work, struct shape shape, siz
 /* The common lengths of the polynomials, and the dimension, are made constants here. */
 INLINE void do_dimension(const struct kr_kernel_work *work, enum what what, int dim, size_t begin,
                          size_t end) {
-    const struct kr_fit *fit = &work->bonds->fit;
+    const struct kr_fit *fit = fit_of(work->bonds);
     const int terms = what == ENERGY ? fit->store.terms : fit->pull.terms;
-    if (terms == 6)
+    if (terms == 4)
+        do_slices(work, (struct shape){what, dim, 4, 0}, begin, end);
+    else if (terms == 6)
         do_slices(work, (struct shape){what, dim, 6, 0}, begin, end);
     else if (terms == 8)
         do_slices(work, (struct shape){what, dim, 8, 0}, begin, end);

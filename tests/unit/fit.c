@@ -21,7 +21,7 @@ static double stretch(double e) {
 
 static void check_fit(const struct kr_law *law, double s0) {
     struct kr_material m = {.law = law, .critical_stretch = s0};
-    struct kr_fit fit = kr_fit_make(&m);
+    struct kr_fit fit = kr_fit_make(&m, KR_FIT_DOUBLE);
     double pull = 0, store = 0, tangent = 0;
     assert_true(fit.range >= 0.02 && fit.range <= 0.5);
     if (isfinite(s0) && s0 * (2 + s0) < 0.49)
