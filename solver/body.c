@@ -40,6 +40,10 @@ void kr_body_free(struct kr_body *body) {
     kr_free(body);
 }
 
+void kr_body_mix(struct kr_body *body) {
+    body->kernel = kr_kernel_mixed();
+}
+
 static struct kr_kernel_work work_of(const struct kr_body *body) {
     struct kr_kernel_work work = {
         .bonds = body->bonds, .energy = body->energy, .flag = body->flag};

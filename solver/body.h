@@ -25,6 +25,9 @@ struct kr_body {
 struct kr_body *kr_body_create(struct kr_bonds *bonds);
 void kr_body_free(struct kr_body *body);
 
+/** From now on the loop over bonds works in mixed precision (kernel.h). */
+void kr_body_mix(struct kr_body *body);
+
 /** Internal force density of every node at the displacements u; theory.md (7), plates paper eq. 11.
  *
  *  may_break: then break the bonds past the critical stretch (they pull with half their force in

@@ -56,6 +56,7 @@ enum kr_surface_correction {
     KR_SURFACE_FORCE_DENSITY,
 };
 enum kr_deformation { KR_UNIAXIAL_Y, KR_UNIAXIAL_X, KR_ISOTROPIC, KR_MEAN_OVER_AXES, KR_UNIAXIAL_Z };
+enum kr_precision { KR_DOUBLE, KR_MIXED };
 enum kr_model { KR_PLANE_STRESS, KR_PLANE_STRAIN, KR_SOLID };
 enum kr_micromodulus { KR_CONSTANT, KR_CONICAL };
 
@@ -225,6 +226,7 @@ struct kr_case {
     /* solver */
     double end_time;      /* s; 0: not given, for there are stages */
     double time_step;     /* s; 0: found */
+    int precision;        /* enum kr_precision */
     double safety_factor; /* of the largest stable step */
     double checkpoint_every; /* s of wall time; 0: only on signals */
 

@@ -194,6 +194,7 @@ static void read_all(const struct kr_h5 *file, struct kr_checkpoint *at) {
     }
     int32_t *word = kr_h5_read_int32(file, "/living", words_of(at->body->bonds), 0);
     memcpy(at->body->bonds->living, word, at->body->bonds->n_rows);
+    kr_bonds_find_twins(at->body->bonds);
     kr_free(word);
     read_crack(file, at->crack);
     at->step = (long)kr_h5_get_int64(file, "/", "step");

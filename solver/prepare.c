@@ -195,6 +195,8 @@ struct kr_run *kr_run_create(struct kr_deck *deck, const struct kr_case *c) {
     mark_no_fail(c, run->nodes, run->bonds);
     run->body = kr_body_create(run->bonds);
     create_boundaries(run, deck);
+    if (c->precision == KR_MIXED)
+        kr_body_mix(run->body);
     kr_deck_finish(deck);
     struct kr_bonds_size size = kr_bonds_size(run->bonds);
     kr_say("  %zu nodes, %zu bonds (%.1f a node), %zu cut by pre-cracks; families in %.2f s", run->nodes->n,
