@@ -8,6 +8,8 @@
 #   make deps       list what the system lacks and install it (Debian; sudo where not root)
 #   make corrections  write docs/corrections.md anew: all partial volumes with all surface corrections
 #   make pores-500  mesh 500 random fields of 30 pores (GRID=, SEEDS=, PORES=, SPACING= in mm)
+#   make cases/NAME run a case that is compared with something known (FULL=1: the published size)
+#   make validate   run all of them, small; writes build/validation.csv
 #   make free-grid  measure the free grid at three sizes (the table in docs/grids.md)
 #   make docs       write docs/deck.md anew from the table that reads the deck
 #   make format     clang-format the sources
@@ -44,12 +46,16 @@ PACKAGES := pkg-config libhdf5-dev libfyaml-dev libudunits2-dev libmuparser-dev 
             libmetis-dev libcmocka-dev python3 python3-numpy python3-matplotlib python3-h5py \
             ffmpeg python3-meshio python3-netcdf4 gmsh g++ libcgal-dev
 
+# What cases/ compare with.
+CASES_PACKAGES := calculix-ccx
+
 programs_c := $(wildcard pre/kirsch-*.c solver/kirsch-*.c post/kirsch-*.c) $(wildcard solver/kirsch.c)
 library_c  := $(filter-out $(programs_c) solver/kernel.c,$(wildcard solver/base/*.c solver/*.c \
               solver/material/*.c pre/*.c post/*.c))
 programs   := $(patsubst %.c,$(BUILD)/%,$(notdir $(programs_c)))
 library_o  := $(patsubst %.c,$(BUILD)/%.o,$(library_c)) $(BUILD)/pre/cgal_surface.o
 tests_c    := $(wildcard tests/unit/*.c tests/property/*.c tests/convergence/*.c tests/input/*.c)
+cases      := $(patsubst %/run,%,$(wildcard cases/*/run))
 tests      := $(patsubst tests/%.c,$(BUILD)/tests/%,$(tests_c))
 scripts    := $(patsubst %,$(BUILD)/%,$(notdir $(wildcard pre/*.py post/*.py)))
 
@@ -61,7 +67,8 @@ KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 $(foreach k,$(kernels),$(eval KERNEL_$(k)_mixed := $(KERNEL_$(k)) -DKR_FLOAT))
 
-.PHONY: FORCE all help demo study test bench deps corrections pores-500 free-grid docs format install clean check-deps
+.PHONY: FORCE all help demo study test bench deps corrections pores-500 free-grid validate $(cases) \
+        docs format install clean check-deps
 all: check-deps $(programs) $(scripts)
 
 help:
@@ -155,6 +162,14 @@ pores-500: all $(BUILD)/fields
 
 free-grid: all
 	@BUILD=$(BUILD) cases/free-grid/table
+
+$(cases): all
+	@tests/deps install $(CASES_PACKAGES)
+	@BUILD=$(BUILD) FULL='$(FULL)' $@/run
+
+validate: all
+	@tests/deps install $(CASES_PACKAGES)
+	@BUILD=$(BUILD) cases/validate
 
 docs: all
 	@$(BUILD)/kirsch --deck-reference > docs/deck.md
