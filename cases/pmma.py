@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the three cases of PMMA plates with rows of pores share: section 5 of the plates paper."""
+import numpy
+
+from common import Case, table_of
+
+RADIUS, PITCH, ROWS = 0.75e-3, 50e-3 / 9, 8
+MIDDLE = 12.5e-3
+NOTCH = {"long": 2e-3, "short": 0.75e-3}
+# The short notch holds longer: the run goes on until the crack is through.
+END = {"long": "400 us", "short": "460 us"}
+
+
+def tip_speed(tips, low, high):
+    """Greatest smoothed speed over Rayleigh's of tips between two x, NaN where there are none."""
+    inside = (tips["x [m]"] >= low) & (tips["x [m]"] <= high)
+    speed = tips["speed_over_rayleigh"][inside]
+    return numpy.nanmax(speed) if numpy.isfinite(speed).any() else numpy.nan
+
+
+def mean_speed(tips, low, high):
+    """Mean speed over Rayleigh's of the tips between two x."""
+    inside = (tips["x [m]"] >= low) & (tips["x [m]"] <= high)
+    speed = tips["speed_over_rayleigh"][inside]
+    return numpy.nanmean(speed) if numpy.isfinite(speed).any() else numpy.nan
+
+
+def at_first_pore(tips):
+    """Speed over Rayleigh's within a diameter before the edge of the first pore."""
+    return tip_speed(tips, PITCH - 3 * RADIUS, PITCH - RADIUS)
+
+
+def valleys(tips):
+    """How many pores lie in a valley of the speed, and of how many: slower beside the pore than the
+    mean of both middles between pores."""
+    low, seen = 0, 0
+    for k in range(1, ROWS + 1):
+        x = k * PITCH
+        beside = mean_speed(tips, x - RADIUS, x + RADIUS)
+        between = (mean_speed(tips, x - PITCH / 2 - RADIUS, x - PITCH / 2 + RADIUS) +
+                   mean_speed(tips, x + PITCH / 2 - RADIUS, x + PITCH / 2 + RADIUS)) / 2
+        if numpy.isfinite(beside) and numpy.isfinite(between):
+            seen += 1
+            low += bool(beside < between)
+    return low, seen
+
+
+def trapped(events, tips):
+    """For each pore passed: time in it over diameter/(speed of the crack between pores)."""
+    share = []
+    for k, kind in enumerate(events["kind"]):
+        if kind != "enter hole":
+            continue
+        hole = events["hole"][k]
+        for n in range(k + 1, len(events["kind"])):
+            if events["kind"][n] == "leave hole" and events["hole"][n] == hole:
+                x = PITCH * round(events["x [m]"][k] / PITCH)
+                speed = mean_speed(tips, x - PITCH / 2 - RADIUS, x - PITCH / 2 + RADIUS) * RAYLEIGH
+                if numpy.isfinite(speed) and speed > 0:
+                    share.append((events["time [s]"][n] - events["time [s]"][k]) * speed / (2 * RADIUS))
+                break
+    return numpy.array(share)
+
+
+RAYLEIGH = 929.0  # m/s; replaced by that of the run's summary.csv
+
+
+def summary_of(path):
+    table = table_of(path)
+    return dict(zip(table["name"], table["value"]))
+
+
+def look(case, label, notch):
+    """Tables of one run, and the rows that all cases have."""
+    global RAYLEIGH
+    tips = table_of(case.path(label, "tips.csv"))
+    events = table_of(case.path(label, "events.csv"))
+    branches = table_of(case.path(label, "branches.csv"))
+    summary = summary_of(case.path(label, "summary.csv"))
+    RAYLEIGH = summary["rayleigh_speed"]
+    end = list(branches["end"])
+    case.row(f"{label}: first growth [us]", 1e6 * summary["first_growth"])
+    case.row(f"{label}: crack through [us]", 1e6 * summary["arrival"])
+    case.row(f"{label}: pores passed through", events["kind"].count("leave hole"))
+    case.row(f"{label}: branches", int(summary["branches"]))
+    case.row(f"{label}: branches that end inside", end.count("arrest"))
+    case.row(f"{label}: greatest speed over Rayleigh's", summary["top_speed_over_rayleigh"],
+             verdict=bool(summary["top_speed_over_rayleigh"] < 1), source="below 1: theory")
+    case.row(f"{label}: energy balance over work", abs(summary["energy_balance"]),
+             reference=0.0, tolerance=0.03, source="ours")
+    return tips, events, branches, summary
+
+
+def run(case, notch, grid=None, extra=None):
+    """Run the case with this notch on this grid (None: the deck's)."""
+    label = notch if grid is None else f"{notch}-{grid}"
+    settings = {"cracks.precracks.0.to": f"[{1e3 * NOTCH[notch]} mm, 12.5 mm]",
+                "solver.end_time": END[notch]}
+    if grid:
+        settings["mesh.grid"] = grid
+    if grid == "voronoi":
+        settings["nodes.partial_volume"] = "exact-centroid"
+    settings.update(extra or {})
+    case.kirsch(label, settings, until="plot")
+    return label
+
+
+def compare(name, first_pore):
+    """Run one arrangement with both notches on the paper's grid, and on ours.
+
+    first_pore  {notch: test of the speed over Rayleigh's at the edge of the first pore, its words}
+    """
+    case = Case(name)
+    for grid in (None, "voronoi"):
+        for notch in NOTCH:
+            label = run(case, notch, grid)
+            tips, events, branches, summary = look(case, label, notch)
+            speed = at_first_pore(tips)
+            test, words = first_pore[notch]
+            case.row(f"{label}: speed over Rayleigh's at the first pore", speed,
+                     verdict=bool(test(speed)), source=words)
+            low, seen = valleys(tips)
+            if name != "pmma-a":
+                case.row(f"{label}: pores beside a valley of the speed", f"{low} of {seen}",
+                         verdict=bool(seen and low > seen / 2), source="paper, Fig. 15: valleys at the pores")
+            share = trapped(events, tips)
+            if len(share):
+                case.row(f"{label}: time in a pore over diameter/speed, median of {len(share)}",
+                         float(numpy.median(share)), reference=1.0, tolerance=0.5,
+                         source="paper, Fig. 16: equal")
+    case.finish()
