@@ -2,24 +2,27 @@
 #
 #   make            build everything into build/
 #   make demo       a crack runs through a porous plate; ends with pictures (FULL=1: the paper's size)
+#   make study      run the example study of random pores; goes on where it was interrupted
 #   make test       all tests (ONLY=word: those whose name contains the word)
 #   make bench      measure the speed; writes build/bench.csv
 #   make deps       list what the system lacks and install it (Debian; sudo where not root)
 #   make corrections  write docs/corrections.md anew: all partial volumes with all surface corrections
 #   make pores-500  mesh 500 random fields of 30 pores (GRID=, SEEDS=, PORES=, SPACING= in mm)
+#   make free-grid  measure the free grid at three sizes (the table in docs/grids.md)
 #   make docs       write docs/deck.md anew from the table that reads the deck
 #   make format     clang-format the sources
 #   make install    PREFIX=/usr/local
 #   make clean
 #   make help       this list
 #
-# Settings: CC, CFLAGS, PREFIX, V=1 (show commands), SANITIZE=1 (address and undefined behaviour).
+# Settings: CC, CXX, CFLAGS, PREFIX, V=1 (show commands), SANITIZE=1 (address and undefined behaviour).
 # Sources are found by wildcard: a new file needs no change here. A file named kirsch-*.c is a program.
 
 MAKEFLAGS += --no-builtin-rules
 BUILD    ?= build
 PREFIX   ?= /usr/local
 CC       ?= cc
+CXX      ?= c++
 CFLAGS   ?= -O2 -g
 Q        := $(if $(V),,@)
 
@@ -31,18 +34,21 @@ CFLAGS   += -fsanitize=address,undefined -fno-omit-frame-pointer
 endif
 ALL_FLAGS = -std=c11 -D_GNU_SOURCE -fopenmp $(WARNINGS) $(CFLAGS) -Isolver -Ipre -Ipost -MMD -MP \
             $(shell pkg-config --cflags hdf5 libfyaml udunits 2>/dev/null)
+# CGAL stands in one file (pre/cgal_surface.cpp), which takes half a minute to compile.
+CXX_FLAGS = -std=c++17 -Wall -Wextra $(CFLAGS) -Ipre -MMD -MP
+CGAL_LIBS = -lstdc++ -lgmp -lmpfr
 LIBS      = $(shell pkg-config --libs hdf5 libfyaml 2>/dev/null) -ludunits2 -lmuparser -lm
 
 # What Debian must provide to build and run, and to test.
 PACKAGES := pkg-config libhdf5-dev libfyaml-dev libudunits2-dev libmuparser-dev libgmsh-dev \
             libmetis-dev libcmocka-dev python3 python3-numpy python3-matplotlib python3-h5py \
-            ffmpeg python3-meshio python3-netcdf4 gmsh
+            ffmpeg python3-meshio python3-netcdf4 gmsh g++ libcgal-dev
 
 programs_c := $(wildcard pre/kirsch-*.c solver/kirsch-*.c post/kirsch-*.c) $(wildcard solver/kirsch.c)
 library_c  := $(filter-out $(programs_c) solver/kernel.c,$(wildcard solver/base/*.c solver/*.c \
               solver/material/*.c pre/*.c post/*.c))
 programs   := $(patsubst %.c,$(BUILD)/%,$(notdir $(programs_c)))
-library_o  := $(patsubst %.c,$(BUILD)/%.o,$(library_c))
+library_o  := $(patsubst %.c,$(BUILD)/%.o,$(library_c)) $(BUILD)/pre/cgal_surface.o
 tests_c    := $(wildcard tests/unit/*.c tests/property/*.c tests/convergence/*.c tests/input/*.c)
 tests      := $(patsubst tests/%.c,$(BUILD)/tests/%,$(tests_c))
 scripts    := $(patsubst %,$(BUILD)/%,$(notdir $(wildcard pre/*.py post/*.py)))
@@ -55,7 +61,7 @@ KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 $(foreach k,$(kernels),$(eval KERNEL_$(k)_mixed := $(KERNEL_$(k)) -DKR_FLOAT))
 
-.PHONY: FORCE all help demo test bench deps corrections pores-500 docs format install clean check-deps
+.PHONY: FORCE all help demo study test bench deps corrections pores-500 free-grid docs format install clean check-deps
 all: check-deps $(programs) $(scripts)
 
 help:
@@ -84,6 +90,11 @@ $(BUILD)/%.o: %.c
 	@echo "  cc    $<"
 	$(Q)$(CC) $(ALL_FLAGS) -DKR_VERSION='"$(VERSION)"' -c $< -o $@
 
+$(BUILD)/%.o: %.cpp
+	@mkdir -p $(@D)
+	@echo "  c++   $<"
+	$(Q)$(CXX) $(CXX_FLAGS) -c $< -o $@
+
 $(BUILD)/%.py: post/%.py
 	@mkdir -p $(@D)
 	$(Q)cp $< $@
@@ -100,14 +111,14 @@ $(BUILD)/solver/kernel_%.o: solver/kernel.c
 define program_rule
 $(BUILD)/$(basename $(notdir $(1))): $(BUILD)/$(basename $(1)).o $(BUILD)/libkirsch.a
 	@echo "  link  $$(@F)"
-	$$(Q)$(CC) $$(CFLAGS) -fopenmp $$< $(BUILD)/libkirsch.a $$(if $$(findstring gmsh,$$(@F)),-lgmsh) $$(if $$(findstring nodes,$$(@F)),-lmetis) $$(LIBS) -o $$@
+	$$(Q)$(CC) $$(CFLAGS) -fopenmp $$< $(BUILD)/libkirsch.a $$(if $$(findstring gmsh,$$(@F)),-lgmsh) $$(if $$(findstring nodes,$$(@F)),-lmetis) $$(if $$(findstring mesh,$$(@F)),$(CGAL_LIBS)) $$(LIBS) -o $$@
 endef
 $(foreach c,$(programs_c),$(eval $(call program_rule,$(c))))
 
 $(BUILD)/tests/%: tests/%.c tests/test.h $(BUILD)/libkirsch.a
 	@mkdir -p $(@D)
 	@echo "  test  $<"
-	$(Q)$(CC) $(ALL_FLAGS) -Itests $< $(BUILD)/libkirsch.a $(LIBS) -lmetis -lcmocka -o $@
+	$(Q)$(CC) $(ALL_FLAGS) -Itests $< $(BUILD)/libkirsch.a $(LIBS) -lmetis -lcmocka -Wl,--as-needed $(CGAL_LIBS) -o $@
 
 $(BUILD)/fields: $(BUILD)/cases/pores-500/fields.o $(BUILD)/libkirsch.a
 	@echo "  link  $(@F)"
@@ -121,6 +132,10 @@ $(BUILD)/corrections: $(BUILD)/cases/corrections/corrections.o $(BUILD)/libkirsc
 demo: deps
 	@$(MAKE) --no-print-directory all
 	@$(BUILD)/kirsch cases/demo/case.yaml $(if $(FULL),--variant full)
+
+study: deps
+	@$(MAKE) --no-print-directory all
+	@$(BUILD)/kirsch-study cases/study/study.yaml
 
 test: deps
 	@$(MAKE) --no-print-directory all $(tests)
@@ -137,6 +152,9 @@ corrections: all $(BUILD)/corrections
 
 pores-500: all $(BUILD)/fields
 	@$(BUILD)/fields $(or $(GRID),near-boundary) 1 $(or $(SEEDS),500) $(or $(PORES),30) $(or $(SPACING),0.25)
+
+free-grid: all
+	@BUILD=$(BUILD) cases/free-grid/table
 
 docs: all
 	@$(BUILD)/kirsch --deck-reference > docs/deck.md

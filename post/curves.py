@@ -10,13 +10,13 @@ SMOOTH = 15  # moves of the tip
 
 
 def tips_by_box(case):
-    """List of (box, columns of tips.csv in mm and us)."""
+    """List of (branch, columns of tips.csv in mm and us)."""
     tips = read_csv(case.path("tips.csv"))
-    if not len(tips["box"]):
+    if not len(tips["branch"]):
         raise Nothing("there is no crack tip in %s" % case.path("tips.csv"))
     result = []
-    for box in np.unique(tips["box"]):
-        rows = tips["box"] == box
+    for box in np.unique(tips["branch"]):
+        rows = tips["branch"] == box
         result.append((int(box), {"x": 1e3 * tips["x"][rows], "y": 1e3 * tips["y"][rows],
                                   "time": 1e6 * tips["time"][rows],
                                   "speed": tips["speed_over_rayleigh"][rows]}))

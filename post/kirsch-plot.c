@@ -18,8 +18,23 @@
 static const char usage[] = "kirsch-plot case.yaml [PICTURE]...\n"
                             "\n"
                             "Draws into the folder `pictures` of the case's folder: grid, damage, "
-                            "energy, speed, tip, history\n"
-                            "(PNG) and crack (MP4, by ffmpeg). Without names, all of them.";
+                            "energy, speed, tip, tree, history\n"
+                            "(PNG) and crack (MP4, by ffmpeg). Without names, all of them.\n"
+                            "\n"
+                            "kirsch-plot compare FOLDER FOLDER   two runs and their difference\n"
+                            "\n"
+                            "  --field NAME       any field of the outputs, as Displacement";
+
+/** Replace this program: plot.py compare FOLDER FOLDER; it needs no deck. */
+static void compare(int argc, char **argv) {
+    char **word = KR_NEW(char *, (size_t)argc + 4);
+    word[0] = PYTHON;
+    word[1] = "-B";
+    word[2] = kr_child_script("plot.py");
+    memcpy(word + 3, argv + 1, (size_t)(argc - 1) * sizeof *word);
+    execv(PYTHON, word);
+    kr_stop(KR_EXIT_LIBRARY, "cannot start " PYTHON ": %s", strerror(errno));
+}
 
 /** Replace this program: plot.py FOLDER PICTURE... --hole x,y,radius...   (in m) */
 static void hand_over(const struct kr_case *c, const struct kr_case_arguments *arguments) {
@@ -48,6 +63,9 @@ int main(int argc, char **argv) {
     struct kr_case_arguments arguments;
     struct kr_deck *deck;
     struct kr_case c;
+    kr_error_program("kirsch-plot");
+    if (argc > 1 && !strcmp(argv[1], "compare"))
+        compare(argc, argv);
     kr_case_arguments(argc, argv, usage, &arguments);
     deck = kr_case_open(&arguments, &c);
     if (!arguments.explain)

@@ -2,6 +2,8 @@
  *
  * kirsch-track: where, how fast and into how many branches the cracks of a run went.
  */
+#include <unistd.h>
+
 #include "base/error.h"
 #include "base/memory.h"
 #include "case.h"
@@ -10,10 +12,10 @@
 static const char usage[] =
     "kirsch-track case.yaml\n"
     "\n"
-    "Reads run.h5 in the case's folder; follows the crack tip in each box of the deck "
-    "(`track.boxes`;\n"
-    "without any, in the whole plate along +x) and counts the branches. Writes tips.csv and\n"
-    "summary.csv there.";
+    "Reads run.h5 and plate.nodes.h5 in the case's folder and finds the cracks of the run: where\n"
+    "and when each began, how fast it ran, where it branched, merged, met a hole or stopped.\n"
+    "Writes tips.csv, branches.csv, events.csv and summary.csv there, and boxes.csv where the deck\n"
+    "has `track.boxes`.";
 
 static void stop_on_unknown(const struct kr_case_arguments *arguments) {
     if (arguments->n_left)
@@ -22,19 +24,31 @@ static void stop_on_unknown(const struct kr_case_arguments *arguments) {
 }
 
 static void explain(const struct kr_case *c) {
-    kr_say("would follow the tip in %s, over a window of %lld steps",
-           c->boxes.count ? "the deck's boxes" : "the whole plate along +x", (long long)c->window);
+    kr_say("would find the cracks of %s/run.h5", c->folder);
+    if (c->boxes.count)
+        kr_say("would follow the tip in %zu boxes, over a window of %lld steps", c->boxes.count,
+               (long long)c->window);
 }
 
-/** Follow the tip in each box, or in the whole plate where the deck gives none. */
-static void follow_all(const struct kr_case *c, const struct kr_record *record,
-                       struct kr_report *report) {
-    const struct kr_case_box whole = kr_track_whole(record), *box = c->boxes.item;
-    size_t count = c->boxes.count ? c->boxes.count : 1;
-    struct kr_track *track = KR_NEW(struct kr_track, count);
-    for (size_t k = 0; k < count; k++)
-        kr_track_follow(record, c->boxes.count ? box + k : &whole, c->window, track + k);
-    *report = (struct kr_report){record, c->window, count, track, kr_branches_count(record)};
+/** The nodes' sets tell where holes and boundaries are. */
+static void read_rims(const struct kr_case *c, struct kr_record *record) {
+    char *path = kr_case_file(c, "plate.nodes.h5");
+    if (access(path, R_OK) == 0)
+        kr_record_read_rims(record, path);
+    else
+        kr_warn("%s is missing: cracks that meet a hole or a boundary are not told from those "
+                "that stop",
+                path);
+    kr_free(path);
+}
+
+/** Follow the tip in each box of the deck. */
+static struct kr_track *follow_boxes(const struct kr_case *c, const struct kr_record *record) {
+    const struct kr_case_box *box = c->boxes.item;
+    struct kr_track *track = KR_NEW(struct kr_track, c->boxes.count);
+    for (size_t k = 0; k < c->boxes.count; k++)
+        kr_track_follow(record, box + k, c->window, track + k);
+    return track;
 }
 
 static void free_tracks(struct kr_report *report) {
@@ -43,22 +57,57 @@ static void free_tracks(struct kr_report *report) {
     kr_free(report->track);
 }
 
+static void write_table(const struct kr_case *c, const struct kr_report *report, const char *name,
+                        void (*write)(const struct kr_report *, const char *)) {
+    char *path = kr_case_file(c, name);
+    write(report, path);
+    kr_free(path);
+}
+
+/** Find and write the pieces of the body. */
+static struct kr_fragments break_up(const struct kr_case *c, const struct kr_record *record,
+                                    const char *run) {
+    double *velocity = kr_fragments_velocity(run, record->n);
+    char *path = kr_case_file(c, "fragments.csv");
+    struct kr_fragments fragments;
+    if (!velocity)
+        kr_warn("%s holds no output with velocities: fragments have no momentum", run);
+    if (record->dim == 3 && c->cracks.count)
+        kr_warn("bonds that pre-cracks cut in 3D are taken for living in fragments.csv");
+    kr_fragments_find(record, c, velocity, &fragments);
+    kr_fragments_write(&fragments, record->dim, path);
+    kr_free(velocity);
+    kr_free(path);
+    return fragments;
+}
+
 static void track_run(const struct kr_case *c) {
-    char *run = kr_case_file(c, "run.h5"), *tips = kr_case_file(c, "tips.csv");
-    char *summary = kr_case_file(c, "summary.csv");
+    char *run = kr_case_file(c, "run.h5");
     struct kr_record *record = kr_record_read(run);
+    struct kr_fragments fragments;
+    struct kr_tree *tree;
     struct kr_report report;
     if (!record->finished)
         kr_warn("%s is not finished: this is the crack after %lld steps", run,
                 (long long)record->steps);
-    follow_all(c, record, &report);
-    kr_report_tips(&report, tips);
-    kr_report_summary(&report, summary);
+    read_rims(c, record);
+    fragments = break_up(c, record, run);
+    tree = kr_tree_grow(record);
+    if (record->dim == 3 && c->boxes.count)
+        kr_stop(KR_EXIT_INPUT, "track.boxes follow tips in 2D, and the run is in 3D; leave them out");
+    report = (struct kr_report){record, c->window, c->boxes.count, follow_boxes(c, record), tree,
+                               &fragments};
+    write_table(c, &report, "tips.csv", kr_report_tips);
+    write_table(c, &report, "branches.csv", kr_report_branches);
+    write_table(c, &report, "events.csv", kr_report_events);
+    if (report.n_tracks)
+        write_table(c, &report, "boxes.csv", kr_report_boxes);
+    write_table(c, &report, "summary.csv", kr_report_summary);
     kr_report_say(&report);
     kr_free(run);
-    kr_free(tips);
-    kr_free(summary);
     free_tracks(&report);
+    kr_tree_free(tree);
+    kr_fragments_clear(&fragments);
     kr_record_free(record);
 }
 

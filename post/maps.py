@@ -5,9 +5,8 @@ from matplotlib.collections import PolyCollection
 from matplotlib.patches import Circle
 
 from raster import raster
+from results import Fault
 from style import DAMAGE, DPI, ENERGY, WIDTH, plt
-
-_rasters = {}
 
 
 def rows_of(case, columns):
@@ -19,14 +18,15 @@ def rows_of(case, columns):
 def picture_of(case, columns):
     """The cell at each sample of the whole plate, and the samples along a pixel, of which cells
     smaller than a pixel need several. Kept for the next picture."""
-    if columns not in _rasters:
+    rasters = case.rasters
+    if columns not in rasters:
         lower, upper = case.box()
         point, first, vertex, _, spacing = case.cells()
         pixel = (upper[0] - lower[0]) / columns
         fine = int(np.clip(np.ceil(1.5 * pixel / spacing), 1, 4))
         shape = fine * rows_of(case, columns), fine * columns
-        _rasters[columns] = raster(point, first, vertex, lower, upper, shape), fine
-    return _rasters[columns]
+        rasters[columns] = raster(point, first, vertex, lower, upper, shape), fine
+    return rasters[columns]
 
 
 def paint(case, values, columns):
@@ -51,6 +51,15 @@ def show(axes, case, pixels, colours, limit):
 def outline_holes(axes, case, width=0.6, colour="0.35"):
     for x, y, radius in case.holes:
         axes.add_patch(Circle((x, y), radius, fill=False, linewidth=width, edgecolor=colour))
+
+
+def outline_material(axes, case, pixels):
+    """A line around all that is not material, for cases of which only the folder is known."""
+    outside = np.ma.getmaskarray(pixels)
+    if outside.any():
+        lower, upper = case.box()
+        axes.contour(outside.astype(float), [0.5], colors="0.35", linewidths=0.5,
+                     extent=(lower[0], upper[0], lower[1], upper[1]))
 
 
 # ---- four times --------------------------------------------------------------------------------
@@ -99,10 +108,15 @@ def panels(case, count):
     return figure, axes, bar, wide
 
 
+def lengths(values):
+    """Numbers as they are; of vectors their lengths."""
+    return values if values.ndim == 1 else np.linalg.norm(values, axis=1)
+
+
 def four_maps(case, field, colours, label, limit_of, scale=1):
     """Maps of a field with one colour scale; returns the figure."""
     chosen = chosen_steps(case)
-    values = [scale * case.field(step, field) for step, _ in chosen]
+    values = [scale * lengths(case.field(step, field)) for step, _ in chosen]
     limit = limit_of(values)
     figure, axes, bar, pixels = panels(case, len(chosen))
     for a, v, (_, time) in zip(axes, values, chosen):
@@ -136,6 +150,25 @@ def energy(case):
     figure = four_maps(case, "Stored_Elastic_Energy_Density", ENERGY,
                        "strain energy density (kJ/m³)", energy_limit, 1e-3)
     return save(case, figure, "energy")
+
+
+# Unit of a field in pictures, and how many of the file's make one.
+UNITS = {"Damage": ("", 1), "Stored_Elastic_Energy_Density": ("kJ/m³", 1e-3),
+         "Displacement": ("µm", 1e6), "Velocity": ("m/s", 1)}
+
+
+def any_field(name):
+    """A picture of any field of the outputs; of vectors the length."""
+    def picture(case):
+        names, _ = case.steps()
+        there = list(case.run()["step"][names[-1]])
+        if name not in there:
+            raise Fault("unknown field `%s`; the run has %s" % (name, ", ".join(there)))
+        unit, factor = UNITS.get(name, ("SI", 1))
+        label = name.replace("_", " ").lower() + (" (%s)" % unit if unit else "")
+        figure = four_maps(case, name, ENERGY, label, energy_limit, factor)
+        return save(case, figure, name.lower())
+    return picture
 
 
 # ---- the grid ----------------------------------------------------------------------------------

@@ -13,6 +13,9 @@ try:
     import curves
     import maps
     import movie
+    import study
+    import tree
+    import compare
 except ImportError as missing:
     print("kirsch-plot: %s; pictures need Debian's python3-numpy, python3-matplotlib and "
           "python3-h5py" % missing, file=sys.stderr)
@@ -24,6 +27,7 @@ PICTURES = {
     "energy": maps.energy,
     "speed": curves.speed,
     "tip": curves.tip,
+    "tree": tree.tree,
     "history": curves.history,
     "crack": movie.crack,
 }
@@ -37,6 +41,10 @@ def arguments(words):
         word = words.pop(0)
         if word == "--hole" and words:
             holes.append(tuple(float(x) for x in words.pop(0).split(",")))
+        elif word == "--field" and words:
+            name = words.pop(0)
+            names.append(name)
+            PICTURES[name] = maps.any_field(name)
         elif folder is None:
             folder = word
         elif word in PICTURES:
@@ -69,6 +77,12 @@ def draw_all(case, names):
 
 def main():
     try:
+        if sys.argv[1:2] == ["study"]:
+            study.draw(sys.argv[2])
+            return
+        if sys.argv[1:2] == ["compare"]:
+            compare.draw(*sys.argv[2:])
+            return
         folder, names, holes = arguments(sys.argv[1:])
         if not draw_all(Case(folder, holes), names):
             sys.exit(2)

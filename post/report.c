@@ -5,46 +5,18 @@
  */
 #include "report.h"
 
-#include <errno.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
-#include <string.h>
-#include <unistd.h>
 
 #include "base/error.h"
-#include "base/memory.h"
+#include "table.h"
 
-/* ---- files ------------------------------------------------------------------------------- */
+static const double PI = 3.14159265358979323846;
 
-/** A text file that grows beside its place. */
-struct output {
-    FILE *file;
-    const char *path;
-    char *beside;
-};
+/* ---- tables ------------------------------------------------------------------------------ */
 
-static struct output begin(const char *path) {
-    struct output output = {NULL, path, kr_text("%s.tmp", path)};
-    output.file = fopen(output.beside, "w");
-    if (!output.file)
-        kr_stop(KR_EXIT_STORAGE, "cannot create %s: %s", output.beside, strerror(errno));
-    return output;
-}
-
-static void finish(struct output *output) {
-    int failed = fflush(output->file) != 0 || ferror(output->file) || fsync(fileno(output->file));
-    failed |= fclose(output->file) != 0;
-    if (failed || rename(output->beside, output->path) != 0) {
-        int reason = errno;
-        unlink(output->beside);
-        kr_stop(KR_EXIT_STORAGE, "cannot write %s: %s", output->path, strerror(reason));
-    }
-    kr_free(output->beside);
-}
-
-static void put_tip(FILE *file, const struct kr_record *record, const struct kr_tip *tip,
-                    size_t box) {
+static void put_box_tip(FILE *file, const struct kr_record *record, const struct kr_tip *tip,
+                        size_t box) {
     const double *x = record->position + 2 * tip->node;
     fprintf(file, "%.9g,%zu,%.9g,%.9g,", (double)tip->step * record->time_step, box + 1, x[0],
             x[1]);
@@ -54,34 +26,136 @@ static void put_tip(FILE *file, const struct kr_record *record, const struct kr_
         fprintf(file, "%.6g,%.6g\n", tip->speed, tip->speed / record->rayleigh_speed);
 }
 
-void kr_report_tips(const struct kr_report *report, const char *path) {
-    struct output output = begin(path);
-    fprintf(output.file, "time [s],box,x [m],y [m],speed [m/s],speed_over_rayleigh\n");
+void kr_report_boxes(const struct kr_report *report, const char *path) {
+    struct kr_table table =
+        kr_table_begin(path, "time [s],box,x [m],y [m],speed [m/s],speed_over_rayleigh");
     for (size_t box = 0; box < report->n_tracks; box++)
         for (size_t k = 0; k < report->track[box].count; k++)
-            put_tip(output.file, report->record, report->track[box].tip + k, box);
-    finish(&output);
+            put_box_tip(table.file, report->record, report->track[box].tip + k, box);
+    kr_table_finish(&table);
+}
+
+static void put_tip(struct kr_table *table, double rayleigh, size_t branch, double distance,
+                    const struct kr_move *move) {
+    fprintf(table->file, "%.9g,%zu,%.9g,%.9g,%.9g", move->time, branch, move->x[0], move->x[1],
+            distance);
+    kr_table_put(table, move->speed);
+    kr_table_put(table, move->error);
+    kr_table_put(table, move->speed / rayleigh);
+    kr_table_put(table, move->angle * 180 / PI);
+    kr_table_put(table, move->front_energy);
+    fprintf(table->file, "\n");
+}
+
+void kr_report_tips(const struct kr_report *report, const char *path) {
+    const struct kr_tree *tree = report->tree;
+    struct kr_table table = kr_table_begin(
+        path, "time [s],branch,x [m],y [m],distance [m],speed [m/s],speed_error [m/s],"
+              "speed_over_rayleigh,angle [deg],front_energy [J/m^2]");
+    for (size_t b = 0; b < tree->count; b++) {
+        double before = 0;
+        for (size_t k = 0; k < tree->branch[b].n_legs; k++) {
+            const struct kr_leg *leg = tree->legs.item + tree->branch[b].leg[k];
+            for (size_t m = 0; m < leg->path.count; m++)
+                put_tip(&table, report->record->rayleigh_speed, b + 1,
+                        before + leg->path.move[m].s - leg->begin_s, leg->path.move + m);
+            before += leg->end_s - leg->begin_s;
+        }
+    }
+    kr_table_finish(&table);
+}
+
+void kr_report_branches(const struct kr_report *report, const char *path) {
+    const struct kr_tree *tree = report->tree;
+    struct kr_table table = kr_table_begin(
+        path, "branch,parent,start,end,start_time [s],end_time [s],start_x [m],start_y [m],"
+              "end_x [m],end_y [m],length [m],mean_speed [m/s],top_speed [m/s],trapped [s],"
+              "energy [J/m],pores");
+    for (size_t b = 0; b < tree->count; b++) {
+        const struct kr_branch *branch = tree->branch + b;
+        const double value[] = {branch->first_time, branch->last_time, branch->from[0],
+                                branch->from[1],    branch->to[0],     branch->to[1],
+                                branch->length,     branch->mean_speed, branch->top_speed,
+                                branch->trapped,    branch->energy};
+        fprintf(table.file, "%zu,%zu,%s,%s", b + 1, branch->parent, kr_tree_start(branch->start),
+                kr_tree_end(branch->end));
+        for (size_t k = 0; k < sizeof value / sizeof value[0]; k++)
+            kr_table_put(&table, value[k]);
+        fprintf(table.file, ",");
+        for (size_t k = 0; k < branch->n_holes; k++)
+            fprintf(table.file, "%s%d", k ? ";" : "", branch->hole[k]);
+        fprintf(table.file, "\n");
+    }
+    kr_table_finish(&table);
+}
+
+/** A comma, and the number unless it is 0. */
+static void put_number(FILE *file, size_t number) {
+    fprintf(file, ",");
+    if (number)
+        fprintf(file, "%zu", number);
+}
+
+void kr_report_events(const struct kr_report *report, const char *path) {
+    const struct kr_tree *tree = report->tree;
+    struct kr_table table = kr_table_begin(path, "time [s],kind,branch,x [m],y [m],hole,other");
+    for (size_t k = 0; k < tree->n_events; k++) {
+        const struct kr_event *event = tree->event + k;
+        fprintf(table.file, "%.9g,%s", event->time, kr_tree_event(event->kind));
+        put_number(table.file, event->branch);
+        kr_table_put(&table, event->x[0]);
+        kr_table_put(&table, event->x[1]);
+        put_number(table.file, (size_t)event->hole);
+        put_number(table.file, event->other);
+        fprintf(table.file, "\n");
+    }
+    kr_table_finish(&table);
 }
 
 /* ---- summary ----------------------------------------------------------------------------- */
+
+/** All branches together. */
+struct total {
+    double length, energy;        /* m, J/m */
+    double mean_speed, top_speed; /* m/s: mean over the time of running of all tips */
+    double first_branching;       /* s; infinite: none */
+    double arrival;               /* s: of the last tip */
+};
+
+static struct total total_of(const struct kr_tree *tree) {
+    struct total total = {0, 0, NAN, NAN, INFINITY, tree->count ? 0 : NAN};
+    double time = 0;
+    for (size_t b = 0; b < tree->count; b++) {
+        const struct kr_branch *branch = tree->branch + b;
+        total.length += branch->length;
+        total.energy += branch->energy;
+        time += branch->last_time - branch->first_time - branch->trapped;
+        total.top_speed = fmax(total.top_speed, branch->top_speed);
+        total.arrival = fmax(total.arrival, branch->last_time);
+        if (branch->start == KR_START_FORK)
+            total.first_branching = fmin(total.first_branching, branch->first_time);
+    }
+    if (time > 0)
+        total.mean_speed = total.length / time;
+    return total;
+}
 
 static void put(FILE *file, const char *name, double value, const char *unit) {
     if (isfinite(value))
         fprintf(file, "%s,%.9g,%s\n", name, value, unit);
 }
 
-/** Results of one box; with more than one box their names end in its number. */
+/** Results of one box; their names end in its number. */
 static void put_track(FILE *file, const struct kr_report *report, size_t box) {
     const struct kr_record *record = report->record;
     const struct kr_track *track = report->track + box;
     const double *x;
-    char suffix[32] = "";
+    char suffix[32];
     char name[96];
     if (!track->count)
         return;
     x = record->position + 2 * track->tip[track->count - 1].node;
-    if (report->n_tracks > 1)
-        snprintf(suffix, sizeof suffix, "_box_%zu", box + 1);
+    snprintf(suffix, sizeof suffix, "_box_%zu", box + 1);
 #define ROW(label, value, unit)                                                                    \
     (snprintf(name, sizeof name, label "%s", suffix), put(file, name, value, unit))
     ROW("tip_x", x[0], "m");
@@ -105,11 +179,29 @@ static void put_energies(FILE *file, const struct kr_record *record) {
     put(file, "energy_balance", work != 0 ? rest / fabs(work) : 0, "1");
 }
 
+static void put_tree(FILE *file, const struct kr_report *report) {
+    const struct kr_tree *tree = report->tree;
+    const double rayleigh = report->record->rayleigh_speed;
+    const struct total total = total_of(tree);
+    put(file, "cracks", (double)kr_tree_cracks(tree), "1");
+    put(file, "branches", (double)kr_tree_tips(tree), "1");
+    put(file, "specks", (double)tree->specks, "1");
+    put(file, "first_branching", total.first_branching, "s");
+    put(file, "arrival", total.arrival, "s");
+    put(file, "crack_length", total.length, "m");
+    put(file, "mean_speed", total.mean_speed, "m/s");
+    put(file, "mean_speed_over_rayleigh", total.mean_speed / rayleigh, "1");
+    put(file, "top_speed", total.top_speed, "m/s");
+    put(file, "top_speed_over_rayleigh", total.top_speed / rayleigh, "1");
+    put(file, "speed_window", 2 * kr_path_window(report->record), "m");
+    put(file, "crack_energy", total.energy, "J/m");
+    put(file, "scattered_energy", tree->legs.scattered, "J/m");
+}
+
 void kr_report_summary(const struct kr_report *report, const char *path) {
     const struct kr_record *record = report->record;
-    struct output output = begin(path);
-    FILE *file = output.file;
-    fprintf(file, "name,value,unit\n");
+    struct kr_table table = kr_table_begin(path, "name,value,unit");
+    FILE *file = table.file;
     put(file, "nodes", (double)record->n, "1");
     put(file, "bonds", (double)record->bonds, "1");
     put(file, "steps", (double)record->steps, "1");
@@ -118,16 +210,15 @@ void kr_report_summary(const struct kr_report *report, const char *path) {
     put(file, "finished", record->finished, "1");
     put(file, "rayleigh_speed", record->rayleigh_speed, "m/s");
     put(file, "broken_bonds", (double)record->broken, "1");
-    put(file, "damaged_nodes", (double)report->branches.damaged, "1");
+    put(file, "fragments", (double)report->fragments->count, "1");
+    put(file, "damaged_nodes", (double)report->tree->damaged, "1");
     put(file, "first_growth", record->first_break, "s");
     put_energies(file, record);
     for (size_t box = 0; box < report->n_tracks; box++)
         put_track(file, report, box);
-    if (report->branches.countable) {
-        put(file, "cracks", (double)report->branches.cracks, "1");
-        put(file, "branches", (double)report->branches.branches, "1");
-    }
-    finish(&output);
+    if (report->tree->countable)
+        put_tree(file, report);
+    kr_table_finish(&table);
 }
 
 /* ---- terminal ---------------------------------------------------------------------------- */
@@ -142,8 +233,7 @@ static void say_track(const struct kr_report *report, size_t box) {
     const struct kr_record *record = report->record;
     const struct kr_track *track = report->track + box;
     const double rayleigh = record->rayleigh_speed;
-    if (report->n_tracks > 1)
-        kr_say("box %zu", box + 1);
+    kr_say("  box %zu", box + 1);
     if (!track->count) {
         kr_say("  tip            none: no damage past the threshold");
         return;
@@ -161,19 +251,54 @@ static void say_track(const struct kr_report *report, size_t box) {
                track->top_speed / rayleigh, resolution(report));
 }
 
+static void say_tree(const struct kr_report *report) {
+    const struct kr_tree *tree = report->tree;
+    const struct total total = total_of(tree);
+    const double rayleigh = report->record->rayleigh_speed;
+    size_t tips = kr_tree_tips(tree), cracks = kr_tree_cracks(tree);
+    if (!tree->damaged)
+        kr_say("  cracks         none: no damage past the threshold");
+    else if (!tree->count)
+        kr_say("  cracks         none grew by three horizons");
+    if (!tree->count)
+        return;
+    kr_say("  branches       %zu, of %zu crack%s; %.2f mm in all", tips, cracks,
+           cracks == 1 ? "" : "s", 1e3 * total.length);
+    if (isfinite(total.first_branching))
+        kr_say("  first fork     %.2f us", 1e6 * total.first_branching);
+    if (isfinite(total.mean_speed))
+        kr_say("  mean speed     %.0f m/s, %.2f of Rayleigh's %.0f m/s", total.mean_speed,
+               total.mean_speed / rayleigh, rayleigh);
+    if (isfinite(total.top_speed))
+        kr_say("  top speed      %.0f m/s, %.2f of it, over %.2f mm of path", total.top_speed,
+               total.top_speed / rayleigh, 2e3 * kr_path_window(report->record));
+}
+
+/** Share of the mass that the heaviest fragment has, in percent. */
+static double heaviest(const struct kr_fragments *fragments) {
+    double mass = 0;
+    for (size_t f = 0; f < fragments->count; f++)
+        mass += fragments->item[f].mass;
+    return 100 * fragments->item[0].mass / mass;
+}
+
 void kr_report_say(const struct kr_report *report) {
     const struct kr_record *record = report->record;
-    const struct kr_branches *branches = &report->branches;
+    const struct kr_tree *tree = report->tree;
     if (isinf(record->first_break))
         kr_say("  first growth   none: no bond broke");
     else
         kr_say("  first growth   %.2f us", record->first_break * 1e6);
+    if (report->fragments->count > 1)
+        kr_say("  fragments      %zu; the heaviest has %.1f %% of the mass",
+               report->fragments->count, heaviest(report->fragments));
     for (size_t box = 0; box < report->n_tracks; box++)
         say_track(report, box);
-    if (branches->countable)
-        kr_say("  branches       %zu, of %zu crack%s", branches->branches, branches->cracks,
-               branches->cracks == 1 ? "" : "s");
+    if (tree->countable)
+        say_tree(report);
+    else if (record->dim == 3)
+        kr_say("  branches       not followed: crack trees are of bodies in 2D");
     else
         kr_say("  branches       not to be counted: %.0f %% of all nodes are damaged",
-               100.0 * (double)branches->damaged / (double)record->n);
+               100.0 * (double)tree->damaged / (double)record->n);
 }

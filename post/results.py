@@ -65,6 +65,7 @@ class Case:
         self.folder = folder
         self.holes = [tuple(1e3 * x for x in hole) for hole in holes]
         self.summary = read_summary(self.path("summary.csv"))
+        self.rasters = {}  # of the whole plate, by their width in pixels
         self._cells = self._run = None
 
     def path(self, name):

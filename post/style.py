@@ -6,7 +6,7 @@ matplotlib.use("Agg")  # no display is needed
 import matplotlib.pyplot as plt
 from matplotlib.colors import LinearSegmentedColormap
 
-DPI = 250
+DPI = 300
 WIDTH = 7.0  # inches: a page's text
 
 # Okabe and Ito's colours: told apart with any kind of colour vision.
@@ -36,4 +36,4 @@ def open_axes(axes):
 
 
 def box_label(box, boxes):
-    return "box %d" % box if len(boxes) > 1 else None
+    return "branch %d" % box if len(boxes) > 1 else None

@@ -7,9 +7,14 @@
 #include "base/child.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "block_body.h"
+#include "boxes_solid.h"
+#include "cell.h"
+#include "cut_cells.h"
 #include "extrude.h"
 
 #include <math.h>
+#include <string.h>
 
 static struct kr_mesh *extruded(const struct kr_block *block, struct kr_block_report *report) {
     struct kr_plate_report flat;
@@ -25,10 +30,67 @@ static struct kr_mesh *extruded(const struct kr_block *block, struct kr_block_re
     return solid;
 }
 
+/** Volume that the boundary faces enclose: a third of the flux of the place through them. */
+static double enclosed(const struct kr_mesh *mesh) {
+    double six = 0, lost = 0;
+    for (size_t f = 0; f < mesh->n_faces; f++) {
+        double point[3 * 4], middle[3];
+        size_t from = mesh->face_first[f], n = mesh->face_first[f + 1] - from;
+        for (size_t k = 0; k < n; k++)
+            memcpy(point + 3 * k, mesh->point + 3 * mesh->face[from + k], 3 * sizeof *point);
+        kr_cell_face(n, point, middle);
+        for (size_t k = 0; k < n; k++) {
+            const double *p = point + 3 * k, *q = point + 3 * (k + 1 < n ? k + 1 : 0);
+            double add = middle[0] * (p[1] * q[2] - p[2] * q[1]) +
+                         middle[1] * (p[2] * q[0] - p[0] * q[2]) +
+                         middle[2] * (p[0] * q[1] - p[1] * q[0]);
+            double sum = six + add;
+            lost += fabs(six) >= fabs(add) ? (six - sum) + add : (add - sum) + six;
+            six = sum;
+        }
+    }
+    return (six + lost) / 6;
+}
+
+/** Largest distance of a face's corners and middle from the surface that it stands for. */
+static double conformity_of(const struct kr_mesh *mesh, const struct kr_block_body *body) {
+    double most = 0, dx = body->spacing;
+    for (size_t c = 0; c < body->n_cutters; c++) {
+        const struct kr_cutter *cutter = &body->cutter[c];
+        const struct kr_mesh_group *group = NULL;
+        if (cutter->kind != KR_CUTTER_PLATE)
+            group = kr_mesh_group(mesh, body->group[cutter->group], 2);
+        for (size_t k = 0; group && k < group->count; k++) {
+            size_t from = mesh->face_first[group->member[k]];
+            size_t n = mesh->face_first[group->member[k] + 1] - from;
+            double middle[3] = {0};
+            for (size_t v = 0; v < n; v++)
+                for (int d = 0; d < 3; d++)
+                    middle[d] += mesh->point[3 * mesh->face[from + v] + (size_t)d] / dx / (double)n;
+            most = fmax(most, fabs(kr_cutter_at(cutter, middle, NULL)));
+        }
+    }
+    return most * dx;
+}
+
+/** A solid whose lattice is cut by surfaces. */
+static struct kr_mesh *cut(const struct kr_block *block, struct kr_block_report *report) {
+    struct kr_block_body *body = kr_block_body_of(block);
+    struct kr_mesh *mesh = block->plate.grid == KR_GRID_UNIFORM   ? kr_cubes_mesh(body)
+                           : block->plate.grid == KR_GRID_VORONOI ? kr_cut_cells_mesh(body)
+                                                                  : kr_boxes_solid_mesh(block, body, report);
+    report->exact_volume = kr_block_body_volume(body);
+    report->filled_volume = enclosed(mesh);
+    report->conformity = conformity_of(mesh, body);
+    kr_block_body_free(body);
+    return mesh;
+}
+
 struct kr_mesh *kr_block_mesh(const struct kr_block *block, struct kr_block_report *report) {
     double started = kr_child_clock();
     *report = (struct kr_block_report){.seconds = 0};
-    struct kr_mesh *mesh = extruded(block, report);
+    struct kr_mesh *mesh =
+        block->n_voids || block->body ? cut(block, report) : extruded(block, report);
     char *fault = kr_mesh_fault(mesh);
     if (fault)
         kr_stop(KR_EXIT_LIBRARY, "the mesh that was made is faulty: %s", fault);

@@ -2,7 +2,7 @@
  *
  * From what kirsch-gmsh says of a CAD file to closed curves. See cad.h.
  *
- * An arc of an ellipse between two tangents that meet in Q:  c + a cos t + b sin t,  t from -h to h,
+ * An arc of an ellipse between two tangents that meet in Q:  c + a cos t + b sin t,  -h <= t <= h,
  *    a = (Q - M)/(1/cos h - cos h),  b = (P1 - P0)/(2 sin h),  c = M - a cos h,
  * M the middle of the chord. It passes the median M Q at the share s = cos h/(1 + cos h) of it; so
  * cos h = s/(1 - s) takes it through a third point. (A conic in the form of Liming, by weights
@@ -39,11 +39,12 @@ static struct kr_piece line_between(const double *from, const double *to) {
 /** The arc through begin, middle and end. From P(h) - P(0) = a (cos h - 1) + b sin h, b = P'(0). */
 static struct kr_piece round_of(const struct told *t) {
     const double *p = t->at[0], *middle = t->at[1], *end = t->at[2], half = t->span / 2;
+    double lost = 2 * sin(half / 2) * sin(half / 2); /* 1 - cos h, all digits kept */
     struct kr_piece piece = {.is_arc = 1, .t1 = t->span};
     for (int d = 0; d < 2; d++) {
         piece.from[d] = p[d];
         piece.b[d] = p[2 + d];
-        piece.a[d] = (p[d] - middle[d] + piece.b[d] * sin(half)) / (2 * sin(half / 2) * sin(half / 2));
+        piece.a[d] = (p[d] - middle[d] + piece.b[d] * sin(half)) / lost;
         piece.centre[d] = p[d] - piece.a[d];
         piece.to[d] = end[d];
     }

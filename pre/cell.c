@@ -6,7 +6,7 @@
  */
 #include "cell.h"
 
-#include "element.h"
+#include "solid.h"
 
 #include <math.h>
 
@@ -45,24 +45,6 @@ int kr_cell_is_sound(size_t n, const double *p) {
            (triangle(p, p + 2, p + 6) > 0 && triangle(p + 2, p + 4, p + 6) > 0);
 }
 
-/** Weights of corners and of the middles of edges in the middle of a face. */
-static void weights(size_t n, double *corner, double *middle) {
-    *corner = n == 6 ? -1.0 / 9 : n == 8 ? -1.0 / 4 : 1 / (double)n;
-    *middle = n == 6 ? 4.0 / 9 : n == 8 ? 1.0 / 2 : 1 / (double)n;
-}
-
-static void middle_of_face(size_t n, const double *point, double middle[3]) {
-    double weight[2];
-    weights(n, &weight[0], &weight[1]);
-    for (int d = 0; d < 3; d++) {
-        /* About the first vertex: the weights add up to 1, and nothing is lost far from 0. */
-        double sum = 0;
-        for (size_t k = 1; k < n; k++)
-            sum += weight[k % 2] * (point[3 * k + (size_t)d] - point[d]);
-        middle[d] = point[d] + sum;
-    }
-}
-
 static double triple(const double *a, const double *b, const double *c) {
     return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
            a[2] * (b[0] * c[1] - b[1] * c[0]);
@@ -82,7 +64,7 @@ static void add_face(size_t n, const double *point, double sum[4]) {
         add_triangle(point, point + 3, point + 6, sum);
         return;
     }
-    middle_of_face(n, point, middle);
+    kr_solid_middle(n, point, middle);
     for (size_t k = 0; k < n; k++)
         add_triangle(middle, point + 3 * k, point + 3 * (k + 1 < n ? k + 1 : 0), sum);
 }
@@ -128,7 +110,7 @@ double kr_cell_solid(size_t n, const double *point, double centroid[3]) {
 
 double kr_cell_face(size_t n, const double *point, double middle[3]) {
     double area = 0;
-    middle_of_face(n, point, middle);
+    kr_solid_middle(n, point, middle);
     for (size_t k = 0; k < n; k++) {
         double a[3], b[3];
         for (size_t d = 0; d < 3; d++) {

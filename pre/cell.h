@@ -1,18 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Exact area and centroid of a simple polygon, convex or not; volume and centroid of solid cells.
- *
- * The faces of solids need a rule, for four corners seldom lie in one plane. A triangle is flat. Any
- * other face is the fan of triangles between its sides and a point in its middle: where the shape
- * functions of the finite element put it,
- *
- *    4 corners                            mean of the corners
- *    3 corners, 3 middles of edges        4/9 sum of the middles - 1/9 sum of the corners
- *    4 corners, 4 middles of edges        1/2 sum of the middles - 1/4 sum of the corners
- *
- * The middle does not depend on which of two neighbours looks at the face, so conforming cells fill
- * a body without gaps and their volumes add up. For four corners the volume is also the mean of
- * both splits along a diagonal, and that of the trilinear hexahedron.
+ * Exact area and centroid of a simple polygon, convex or not; volume and centroid of solid cells, whose
+ * faces follow the rule of solid.h.
  */
 #ifndef KR_CELL_H
 #define KR_CELL_H

@@ -188,8 +188,8 @@ static int by_row(const void *p, const void *q) {
 /* In which step of the spacing a node stands, seen along an axis. */
 static long step_of(const struct kr_nodes *nodes, size_t node, size_t axis, double lowest) {
     /* Half a spacing below: lattice rows then lie in the middle of their steps. */
-    return (long)((nodes->position[(size_t)nodes->dim * node + axis] - lowest) / nodes->spacing +
-                  0.5);
+    double step = (nodes->position[(size_t)nodes->dim * node + axis] - lowest) / nodes->spacing;
+    return (long)(fmin(step, 1e15) + 0.5);
 }
 
 void kr_convert_order(struct kr_nodes *nodes) {

@@ -20,6 +20,9 @@ struct kr_fill_method {
 extern const struct kr_fill_method kr_fill_methods[];
 extern const size_t kr_fill_n_methods;
 
+/* The best method whose time grows no faster than the number of cells. */
+enum { KR_FILL_LINEAR = 2 };
+
 /** Write the request for a region. */
 void kr_fill_ask(const struct kr_gmsh_region *region, const struct kr_fill_method *method,
                  FILE *file);

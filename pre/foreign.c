@@ -99,27 +99,34 @@ static int has_ending(const char *path, const char *endings) {
     return 0;
 }
 
-/** FOLDER/NAME.converted.msh for the file PATH/NAME.EXTENSION. */
-static char *converted_name(const char *path, const char *folder) {
+/** FOLDER/NAME.converted.ENDING for the file PATH/NAME.EXTENSION. */
+static char *converted_name(const char *path, const char *folder, const char *ending) {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
     const char *dot = strrchr(name, '.');
-    return kr_text("%s/%.*s.converted.msh", folder, (int)(dot ? dot - name : (long)strlen(name)),
-                   name);
+    return kr_text("%s/%.*s.converted.%s", folder, (int)(dot ? dot - name : (long)strlen(name)),
+                   name, ending);
 }
 
-struct kr_mesh *kr_mesh_read(const char *path, const char *folder, double spacing) {
+struct kr_mesh *kr_mesh_read(const char *path, const char *folder, double spacing, char **points) {
     int is_msh = has_ending(path, "msh") && !begins_with(path, "(");
+    *points = NULL;
     if (is_msh || begins_with(path, "$MeshFormat"))
         return kr_mesh_read_msh(path);
-    char *made = converted_name(path, folder), *beside = kr_text("%s.part.msh", made);
+    char *beside = converted_name(path, folder, "part.msh");
     if (has_ending(path, "step stp iges igs brep"))
         mesh_geometry(path, beside, spacing);
     else
         kr_python("to_msh.py", path, beside, path);
+    int is_table = begins_with(beside, "x,y,z,volume");
+    char *made = converted_name(path, folder, is_table ? "csv" : "msh");
     if (rename(beside, made))
         kr_stop(KR_EXIT_STORAGE, "%s cannot be written: %s", made, strerror(errno));
+    kr_free(beside);
+    if (is_table) {
+        *points = made;
+        return NULL;
+    }
     struct kr_mesh *mesh = kr_mesh_read_msh(made);
     kr_free(made);
-    kr_free(beside);
     return mesh;
 }

@@ -13,13 +13,16 @@
 
 /** Read a mesh.
  *
- *  in   folder   where a converted mesh is left, as NAME.converted.msh
+ *  in   folder   where a converted mesh is left, as NAME.converted.msh or .csv
  *  in   spacing  m: length of a cell, for geometry that has yet to be meshed; 0: none is known
+ *
+ *  out  points   NULL; or, where the file holds points with volumes and no cells, the path of a table of
+ *                them (read_points.c), owned by the caller; there is no mesh then
  *
  *  Notes of what was lost or changed on the way are passed on as warnings. Stops (exit 2) where the
  *  file cannot be read, (exit 5) where a program is missing, and says what to install.
  */
-struct kr_mesh *kr_mesh_read(const char *path, const char *folder, double spacing);
+struct kr_mesh *kr_mesh_read(const char *path, const char *folder, double spacing, char **points);
 
 /** Run /usr/bin/python3 on one of our scripts with two arguments. Lines that begin with "Note: "
  *  become warnings; one with "Error: " stops (exit 2) behind the path `about`. */

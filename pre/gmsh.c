@@ -25,7 +25,7 @@ struct work {
     struct kr_gmsh_region *region;
     const char *helper;
     unsigned seconds;
-    size_t running;
+    size_t running, first;   /* first: the method that each region begins with */
     struct attempt *attempt; /* one a child */
 };
 
@@ -74,15 +74,16 @@ static void finish_one(struct work *work) {
         region->method = kr_fill_methods[done.method].words;
         return;
     }
-    if (done.method + 1 == kr_fill_n_methods)
+    size_t next = (done.method + 1) % kr_fill_n_methods;
+    if (next == work->first)
         kr_stop(KR_EXIT_LIBRARY,
                 "gmsh cannot fill the region %s by any of %zu methods; the last, %s, failed: %s. "
-                "Another spacing or padding may help, or the uniform grid",
+                "Another spacing or padding may help, or the voronoi grid",
                 region->name, kr_fill_n_methods, kr_fill_methods[done.method].words, trouble);
     kr_warn("region %s: gmsh's %s failed: %s; trying %s", region->name,
-            kr_fill_methods[done.method].words, trouble, kr_fill_methods[done.method + 1].words);
+            kr_fill_methods[done.method].words, trouble, kr_fill_methods[next].words);
     kr_free(trouble);
-    start(work, done.region, done.method + 1);
+    start(work, done.region, next);
 }
 
 /** The regions by falling area, equal ones in order: the longest work begins first. */
@@ -108,7 +109,7 @@ void kr_gmsh_fill(size_t n_regions, struct kr_gmsh_region *region,
         return;
     char *helper = options->helper ? kr_text_copy(options->helper) : kr_child_beside("kirsch-gmsh");
     struct work work = {region, helper, options->seconds ? options->seconds : LONGEST, 0,
-                        KR_NEW(struct attempt, children)};
+                        options->first, KR_NEW(struct attempt, children)};
     size_t *order = by_area(n_regions, region), started = 0;
     while (started < n_regions || work.running) {
         if (started < n_regions && work.running < children)

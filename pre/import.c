@@ -64,7 +64,13 @@ static struct kr_nodes *import_points(const struct kr_import *import) {
 }
 
 static struct kr_nodes *import_mesh(const struct kr_import *import, struct kr_mesh **mesh) {
-    *mesh = kr_mesh_read(import->path, import->folder, import->spacing);
+    char *points;
+    *mesh = kr_mesh_read(import->path, import->folder, import->spacing, &points);
+    if (points) {
+        struct kr_nodes *nodes = kr_points_read(points, import->unit, import->thickness);
+        kr_free(points);
+        return nodes;
+    }
     kr_pieces_join(*mesh, import->path);
     for (size_t k = 0; k < 3 * (*mesh)->n_points; k++)
         (*mesh)->point[k] *= import->unit;

@@ -24,7 +24,7 @@ static const char usage[] =
     "\n"
     "Turns the cells of a mesh into nodes. MESH, left out: plate.msh in the case's folder, is\n"
     "  .msh                             gmsh 2.2 or 4.1, ASCII or binary; Fluent\n"
-    "  .inp .e .exo .med .vtu .vtk .bdf .unv .xdmf ...   what meshio reads (docs/formats.md)\n"
+    "  .inp .cdb .e .exo .med .vtu .vtk .bdf .unv .xdmf ...   others (docs/formats.md)\n"
     "  .step .iges .brep                bodies of CAD, meshed by gmsh with cells of mesh.spacing\n"
     "  .csv .txt                        points with volumes: Peridigm, PeriLab, CSV; with files of\n"
     "                                   node numbers, one a set\n"
@@ -170,6 +170,15 @@ static void report_nodes(const struct kr_nodes *nodes) {
                nodes->set[s].measure > 0 ? ", on a boundary" : "");
 }
 
+/* "(1.000, 2.000)" in mm. */
+static void place_of(const struct kr_nodes *nodes, size_t i, char text[96]) {
+    size_t dim = (size_t)nodes->dim, used = 0;
+    for (size_t d = 0; d < dim; d++)
+        used += (size_t)snprintf(text + used, 96 - used, "%s%.3f", d ? ", " : "(",
+                                 1e3 * nodes->position[dim * i + d]);
+    snprintf(text + used, 96 - used, ")");
+}
+
 /* Note what the factors are for, and find them if they are wanted. */
 static void correct(const struct kr_case *c, struct kr_nodes *nodes) {
     struct kr_nodes_made_for *made = &nodes->made_for;
@@ -185,11 +194,11 @@ static void correct(const struct kr_case *c, struct kr_nodes *nodes) {
     double begun = kr_progress_clock();
     struct kr_surface_report r = kr_surface_make(nodes, &material, c->surface_correction,
                                                  c->partial_volume, c->surface_deformation);
-    const double *least = nodes->position + (size_t)nodes->dim * r.least_at,
-                 *most = nodes->position + (size_t)nodes->dim * r.most_at;
-    kr_say("  surface factors (%s) %.4f at (%.3f, %.3f) mm to %.4f at (%.3f, %.3f) mm; %d iterations "
-           "to %.1e in %.2f s", made->surface_correction, r.least, 1e3 * least[0], 1e3 * least[1],
-           r.most, 1e3 * most[0], 1e3 * most[1], r.iterations, r.residual,
+    char least[96], most[96];
+    place_of(nodes, r.least_at, least);
+    place_of(nodes, r.most_at, most);
+    kr_say("  surface factors (%s) %.4f at %s mm to %.4f at %s mm; %d iterations to %.1e in %.2f s",
+           made->surface_correction, r.least, least, r.most, most, r.iterations, r.residual,
            kr_progress_clock() - begun);
 }
 

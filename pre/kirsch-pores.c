@@ -121,8 +121,8 @@ int main(int argc, char **argv) {
         kr_stop(KR_EXIT_INPUT, "unknown argument '%s'; see kirsch-pores --help", arguments.left[0]);
     struct kr_deck *deck = kr_case_open(&arguments, &c);
     if (!kr_case_has_pores(&c))
-        kr_stop(KR_EXIT_INPUT, "%s asks for no pores; expected geometry.pores with count, porosity or "
-                               "file",
+        kr_stop(KR_EXIT_INPUT,
+                "%s asks for no pores; expected geometry.pores with count, porosity or file",
                 arguments.deck);
     char *path = kr_case_file(&c, "pores.txt");
     int from_file = c.pores.file && *c.pores.file;

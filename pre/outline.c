@@ -103,7 +103,8 @@ static void add_part(const struct making *m, const struct kr_case_outline *part)
     }
     struct kr_case_hole as = hole_like(m, part);
     struct kr_layer *layer = add_layer(m->out, is_ring ? 2 : 1, part->operation == KR_DIFFERENCE);
-    layer->shape.curve[0] = kr_curve_of_hole(&as, m->spacing, group, m->out->name[group - KR_OUTLINE_SIDES]);
+    layer->shape.curve[0] =
+        kr_curve_of_hole(&as, m->spacing, group, m->out->name[group - KR_OUTLINE_SIDES]);
     if (is_ring) {
         as.radius = part->inner_radius;
         layer->shape.curve[1] = kr_curve_of_hole(&as, m->spacing, group, "the ring's inner edge");

@@ -13,7 +13,7 @@ struct kr_pores {
     int64_t throws;
     struct kr_case_hole *hole; /* (placed) */
     double outline, area;      /* m^2: of the outline, and of the pores placed */
-    double wanted_area;        /* m^2: of all pores wanted; 0 where not known before they are drawn */
+    double wanted_area;        /* m^2: of all pores wanted; 0 by a count */
 };
 
 /** Throw pores into the outline of a case: sizes from their distribution, centres even over the

@@ -17,23 +17,28 @@
 
 #include <math.h>
 
+/* FINE: spacings in the horizon of the full family that all factors refer to. */
 enum { MOST_ITERATIONS = 5000, FINE = 25 };
 static const double STRAIN = 1e-4, TOLERANCE = 1e-7;
 
-/* Strains of the deformations, and how many there are to take the mean over. */
-static int strains_of(int deformation, double strain[2][2]) {
-    double x = deformation == KR_UNIAXIAL_Y ? 0 : STRAIN;
-    double y = deformation == KR_UNIAXIAL_Y || deformation == KR_ISOTROPIC ? STRAIN : 0;
-    strain[0][0] = x;
-    strain[0][1] = y;
-    strain[1][0] = 0;
-    strain[1][1] = STRAIN;
-    return deformation == KR_MEAN_OVER_AXES ? 2 : 1;
+/* Strains of the deformations along the axes, and how many there are to take the mean over. */
+static int strains_of(int dim, int deformation, double strain[3][3]) {
+    int count = deformation == KR_MEAN_OVER_AXES ? dim : 1;
+    for (int k = 0; k < count; k++)
+        for (int d = 0; d < 3; d++) {
+            int axis = deformation == KR_UNIAXIAL_X   ? 0
+                       : deformation == KR_UNIAXIAL_Y ? 1
+                       : deformation == KR_UNIAXIAL_Z ? 2
+                                                      : k;
+            int strained = deformation == KR_ISOTROPIC ? d < dim : d == axis;
+            strain[k][d] = strained ? STRAIN : 0;
+        }
+    return count;
 }
 
-static double bond_energy(const struct kr_material *m, const double xi[2], const double strain[2]) {
+static double bond_energy(const struct kr_material *m, const double xi[3], const double strain[3]) {
     double q = 0, square = 0;
-    for (int d = 0; d < 2; d++) {
+    for (int d = 0; d < 3; d++) {
         double eta = strain[d] * xi[d];
         q += eta * (2 * xi[d] + eta);
         square += xi[d] * xi[d];
@@ -42,27 +47,49 @@ static double bond_energy(const struct kr_material *m, const double xi[2], const
     return kr_material_micromodulus(m, sqrt(square)) * sqrt(square) * m->law->energy(e / (1 + sqrt(1 + e)));
 }
 
-double kr_surface_reference(const struct kr_material *m, int partial_volume, int deformation) {
-    double strain[2][2], spacing = m->horizon / FINE, sum = 0;
-    int count = strains_of(deformation, strain);
-    for (int k = 0; k < count; k++)
-        for (int a = -FINE - 1; a <= FINE + 1; a++)
-            for (int b = -FINE - 1; b <= FINE + 1; b++) {
-                double xi[2] = {a * spacing, b * spacing};
-                if (!a && !b)
-                    continue;
-                double phi = kr_weight_lattice(partial_volume, 2, xi, m->horizon, spacing);
-                if (phi > 0)
-                    sum += 0.5 * phi * bond_energy(m, xi, strain[k]) * spacing * spacing;
-            }
-    return sum / count;
+/* What one bond of the fine lattice holds, its volume not counted: the mean over the strains. */
+struct strained {
+    int count;
+    double strain[3][3];
+};
+
+static double held(const struct kr_material *m, const double xi[3], const void *context) {
+    const struct strained *s = context;
+    double sum = 0;
+    for (int k = 0; k < s->count; k++)
+        sum += bond_energy(m, xi, s->strain[k]);
+    return 0.5 * sum / s->count;
+}
+
+double kr_surface_full_sum(const struct kr_material *m, int dim, int partial_volume,
+                           double (*term)(const struct kr_material *, const double xi[3],
+                                          const void *context),
+                           const void *context) {
+    const int side = 2 * FINE + 3, depth = dim == 3 ? side : 1;
+    double spacing = m->horizon / FINE, sum = 0;
+    for (int k = 0; k < side * side * depth; k++) {
+        int a = k / (side * depth) - FINE - 1, b = k / depth % side - FINE - 1;
+        int c = dim == 3 ? k % depth - FINE - 1 : 0;
+        const double xi[3] = {a * spacing, b * spacing, c * spacing};
+        double phi = a || b || c ? kr_weight_lattice(partial_volume, dim, xi, m->horizon, spacing) : 0;
+        if (phi > 0)
+            sum += phi * term(m, xi, context) * pow(spacing, dim);
+    }
+    return sum;
+}
+
+double kr_surface_reference(const struct kr_material *m, int dim, int partial_volume,
+                            int deformation) {
+    struct strained strained;
+    strained.count = strains_of(dim, deformation, strained.strain);
+    return kr_surface_full_sum(m, dim, partial_volume, held, &strained);
 }
 
 /* The body whose energies are wanted, and the deformations. */
 struct problem {
     struct kr_body *body;
     int count;
-    double strain[2][2];
+    double strain[3][3];
     double *diagonal; /* of the system: about V_i W_i(1)/2 */
     struct kr_progress progress;
 };
@@ -75,7 +102,7 @@ static void apply(const struct problem *p, const double *lambda, double *out) {
         out[i] = 0;
     }
     for (int k = 0; k < p->count; k++) {
-        for (int d = 0; d < 2; d++)
+        for (int d = 0; d < body->dim; d++)
             for (size_t i = 0; i < body->n; i++)
                 body->u[d][i] = p->strain[k][d] * body->bonds->x[d][i];
         kr_body_energy(body);
@@ -176,6 +203,10 @@ void kr_surface_extremes(const struct kr_nodes *nodes, struct kr_surface_report 
     report->most = nodes->factor[report->most_at];
 }
 
+static double height_of(const struct kr_bonds *b, size_t i) {
+    return b->dim == 3 ? b->x[2][i] : 0;
+}
+
 /* A node's factor may be negative, but no bond's mean of two: such a bond would push apart what it
  * holds. Only nodes with a factor below zero can have one. */
 static void refuse_pushing(const struct kr_bonds *b) {
@@ -187,19 +218,19 @@ static void refuse_pushing(const struct kr_bonds *b) {
         while (kr_bonds_next(b, &walk, &bond))
             if (bond.i == i && b->factor[i] + b->factor[bond.j] <= 0)
                 kr_stop(KR_EXIT_NUMBERS,
-                        "the surface factors %.3g and %.3g of the nodes at (%g, %g) and (%g, %g) m "
-                        "make their bond push: no positive factors give this place its energy. Take "
+                        "the surface factors %.3g and %.3g of the nodes at (%g, %g, %g) and (%g, "
+                        "%g, %g) m make their bond push: no positive factors give this place its energy. Take "
                         "nodes.surface_deformation: mean-over-axes or isotropic, or a finer spacing",
-                        b->factor[i], b->factor[bond.j], b->x[0][i], b->x[1][i], b->x[0][bond.j],
-                        b->x[1][bond.j]);
+                        b->factor[i], b->factor[bond.j], b->x[0][i], b->x[1][i], height_of(b, i),
+                        b->x[0][bond.j], b->x[1][bond.j], height_of(b, bond.j));
     }
 }
 
 struct kr_surface_report kr_surface_correct(struct kr_nodes *nodes,
                                             const struct kr_material *material, int partial_volume,
                                             int deformation) {
-    struct kr_surface_report report = {.reference = kr_surface_reference(material, partial_volume,
-                                                                         deformation)};
+    struct kr_surface_report report = {.reference = kr_surface_reference(
+                                           material, nodes->dim, partial_volume, deformation)};
     struct kr_material whole = *material;
     whole.critical_stretch = INFINITY;
     kr_surface_clear(nodes);
@@ -207,7 +238,7 @@ struct kr_surface_report kr_surface_correct(struct kr_nodes *nodes,
     struct kr_bonds *bonds = kr_bonds_create(nodes, &whole, partial_volume);
     struct problem problem = {.body = kr_body_create(bonds), .diagonal = KR_NEW(double, nodes->n)};
     problem.progress = begun;
-    problem.count = strains_of(deformation, problem.strain);
+    problem.count = strains_of(nodes->dim, deformation, problem.strain);
     (partial_volume == KR_PARTIAL_VOLUME_HHB_ONE_SIDED ? repeat : solve)(&problem, nodes->factor,
                                                                          &report);
     kr_progress_wipe(&problem.progress);

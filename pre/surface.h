@@ -46,9 +46,15 @@ struct kr_surface_report kr_surface_correct(struct kr_nodes *nodes,
                                             int deformation);
 
 /** W0: strain energy density [J/m^3] of a full family at a spacing of horizon/25 under the uniform
- *  deformation. */
-double kr_surface_reference(const struct kr_material *material, int partial_volume,
+ *  deformation; dim 2 or 3. */
+double kr_surface_reference(const struct kr_material *material, int dim, int partial_volume,
                             int deformation);
+
+/** Sum over that full family of phi V term(xi), xi [m] with z = 0 in 2D. */
+double kr_surface_full_sum(const struct kr_material *material, int dim, int partial_volume,
+                           double (*term)(const struct kr_material *, const double xi[3],
+                                          const void *context),
+                           const void *context);
 
 /** Factors V0/V_i, to be averaged as 2 V0/(V_i + V_j); theory.md (11a). */
 struct kr_surface_report kr_surface_volume(struct kr_nodes *nodes,
@@ -64,7 +70,7 @@ double kr_surface_full_volume(int dim, double horizon);
 
 /** S0 [N/m^4]: what a full family at a spacing of horizon/25 pulls along an axis, both halves,
  *  strained along it. */
-double kr_surface_full_pull(const struct kr_material *material, int partial_volume);
+double kr_surface_full_pull(const struct kr_material *material, int dim, int partial_volume);
 
 /** Fill in the least and largest factor. */
 void kr_surface_extremes(const struct kr_nodes *nodes, struct kr_surface_report *report);

@@ -3,11 +3,11 @@
  * Surface corrections that need one sum over each family and no iteration; theory.md (11a), (11b).
  *
  *   volume         lambda_i = V0/V_i, V_i what there is of the family, the node's own cell
- * included; a bond takes the harmonic mean, 2 V0/(V_i + V_j)             (Bobaru et al. 2016) force
- * density  lambda_i along each axis = S0/S_i, S_i the sum of what the bonds pull along that axis
- *                  under uniaxial strain along it; a bond takes the ellipse over the means of both
- *                  ends                                          (Oterkus 2010; Madenci, Oterkus
- * 2014)
+ *                  included; a bond takes the harmonic mean, 2 V0/(V_i + V_j)
+ *                  (Bobaru et al. 2016)
+ *   force density  lambda_i along each axis = S0/S_i, S_i the sum of what the bonds pull along that
+ *                  axis under uniaxial strain along it; a bond takes the ellipse over the means of
+ *                  both ends (in 3D the ellipsoid) (Oterkus 2010; Madenci, Oterkus 2014)
  *
  * The literature sums the force density over one half of the family, the fuller one; S_i sums both
  * halves as absolute values, which is the same where both are full and half of it at a straight
@@ -23,7 +23,6 @@
 #include <math.h>
 
 static const double STRAIN = 1e-4;
-enum { FINE = 25 };
 
 /* What a bond of unit weight pulls along an axis per volume squared [N/m^6], strained along it. */
 static double pull_along(const struct kr_material *m, int dim, const double *xi, int axis) {
@@ -40,16 +39,12 @@ double kr_surface_full_volume(int dim, double horizon) {
     return dim == 2 ? M_PI * horizon * horizon : 4 * M_PI / 3 * horizon * horizon * horizon;
 }
 
-double kr_surface_full_pull(const struct kr_material *m, int partial_volume) {
-    double spacing = m->horizon / FINE, sum = 0;
-    for (int a = -FINE - 1; a <= FINE + 1; a++)
-        for (int b = -FINE - 1; b <= FINE + 1; b++) {
-            const double xi[2] = {a * spacing, b * spacing};
-            if (a || b)
-                sum += kr_weight_lattice(partial_volume, 2, xi, m->horizon, spacing) *
-                       pull_along(m, 2, xi, 0) * spacing * spacing;
-        }
-    return sum;
+static double pull(const struct kr_material *m, const double xi[3], const void *dim) {
+    return pull_along(m, *(const int *)dim, xi, 0);
+}
+
+double kr_surface_full_pull(const struct kr_material *m, int dim, int partial_volume) {
+    return kr_surface_full_sum(m, dim, partial_volume, pull, &dim);
 }
 
 /* S of the nodes of one slice along all axes: (n x dim). */
@@ -71,9 +66,10 @@ static void set_axes(struct kr_nodes *nodes, size_t i, double reference) {
         double *factor = &nodes->axis_factor[i * dim + d];
         if (!(*factor > 0))
             kr_stop(KR_EXIT_NUMBERS,
-                    "the surface factor of node %zu at (%g, %g) m: no bond pulls along %c; take "
+                    "the surface factor of node %zu at (%g, %g, %g) m: no bond pulls along %c; take "
                     "surface_correction: volume or none, or remove the node",
-                    i, nodes->position[i * dim], nodes->position[i * dim + 1], "xyz"[d]);
+                    i, nodes->position[i * dim], nodes->position[i * dim + 1],
+                    dim == 3 ? nodes->position[i * dim + 2] : 0, "xyz"[d]);
         *factor = reference / *factor;
         sum += *factor;
     }
@@ -103,10 +99,11 @@ struct kr_surface_report kr_surface_volume(struct kr_nodes *nodes,
 struct kr_surface_report kr_surface_force_density(struct kr_nodes *nodes,
                                                   const struct kr_material *material,
                                                   int partial_volume) {
-    struct kr_surface_report report = {.reference = kr_surface_full_pull(material, partial_volume)};
+    struct kr_surface_report report = {.reference =
+                                           kr_surface_full_pull(material, nodes->dim,
+                                                                partial_volume)};
     struct kr_bonds *bonds = plain_bonds(nodes, material, partial_volume);
-    kr_assert(nodes->dim == 2); /* as the reference */
-    nodes->axis_factor = KR_NEW(double, nodes->n * 2);
+    nodes->axis_factor = KR_NEW(double, nodes->n *(size_t)nodes->dim);
 #pragma omp parallel for schedule(dynamic, 256)
     for (size_t slice = 0; slice < bonds->n_slices; slice++)
         sum_pulls(bonds, slice, nodes->axis_factor);

@@ -5,9 +5,11 @@
 kirsch-nodes runs it. meshio reads the cells; the named sets are taken from wherever the format
 keeps them, also where meshio itself loses them:
 
-  Abaqus .inp     *NSET, *ELSET, ELSET= of *ELEMENT, read here: meshio mixes up sets of several
-                  blocks; *INSTANCE is refused, for its translation would be lost
-  Exodus          blocks, node sets and side sets, read here by netCDF4
+  Abaqus .inp     *NSET, *ELSET, ELSET= of *ELEMENT, *SURFACE, *INSTANCE with its move and turn,
+                  read here: meshio mixes up sets of several blocks and leaves instances unmoved
+  ANSYS .cdb      NBLOCK, EBLOCK and CMBLOCK, read here by the widths of their formats
+  Exodus          blocks, node sets and side sets, read here by netCDF4; SPHERE elements become
+                  points with volumes, and TO.msh a table of them, x,y,z,volume,block_id,sets
   UNV             groups of nodes and elements and the unit of length, read here: gmsh 4.8 crashes
                   on groups of nodes and passes over the unit
   MED             families: cell_tags and point_tags
@@ -153,7 +155,10 @@ def inp_sections(path):
 
 
 class Named:
-    """Sets of numbers and of names of other sets, resolved at the end."""
+    """Sets of numbers and of names of other sets, resolved at the end.
+
+    An item is (instance, number) or (instance, name); the instance is None within a part.
+    """
 
     def __init__(self):
         self.sets, self.names = {}, {}
@@ -162,20 +167,43 @@ class Named:
         key = name.upper()
         self.names.setdefault(key, name)
         items = self.sets.setdefault(key, [])
+        where = options.get("INSTANCE", "").upper() or None
         for line in data:
             words = [w.strip() for w in line.split(",") if w.strip()]
             if "GENERATE" in options:
                 low, high = int(words[0]), int(words[1])
-                items += range(low, high + 1, int(words[2]) if len(words) > 2 else 1)
-            else:
-                items += [int(w) if re.fullmatch(r"\d+", w) else w.strip('"').upper() for w in words]
+                step = int(words[2]) if len(words) > 2 else 1
+                items += [(where, k) for k in range(low, high + 1, step)]
+                continue
+            for word in words:
+                place, _, last = word.strip('"').upper().rpartition(".")
+                items.append((place or where, int(last) if last.isdigit() else last))
 
-    def resolve(self, key, seen=()):
-        if key in seen or key not in self.sets:
+
+class Part:
+    """What stands between *PART and *END PART, or outside of all parts."""
+
+    def __init__(self):
+        self.nodes, self.elements = {}, []
+        self.node_sets, self.cell_sets = Named(), Named()
+        self.surfaces = {}
+
+    def resolve(self, model, kind, key, inside=None, seen=()):
+        """Members (instance, number) of a set; `inside`: the instance of this part that is meant."""
+        named = getattr(self, kind)
+        if key in seen or key not in named.sets:
             stop(f"the set '{key}' is named in another one, but is nowhere defined")
         out = []
-        for item in self.sets[key]:
-            out += self.resolve(item, seen + (key,)) if isinstance(item, str) else [item]
+        for instance, item in named.sets[key]:
+            if instance is not None and instance not in model:
+                stop(f"the set '{key}' names the instance '{instance}', which is nowhere placed")
+            place = instance if instance is not None else inside
+            if not isinstance(item, str):
+                out.append((place, item))
+            elif instance is not None and item in getattr(model[instance][0], kind).sets:
+                out += model[instance][0].resolve(model, kind, item, instance)
+            else:
+                out += self.resolve(model, kind, item, place, seen + (key,))
         return out
 
 
@@ -183,74 +211,173 @@ def numbers(data):
     return [int(w) for line in data for w in line.split(",") if w.strip()]
 
 
+def turned(points, words):
+    """Points after an instance's second line: turned about the axis from a to b by an angle in degrees."""
+    a, b, angle = np.array(words[:3]), np.array(words[3:6]), np.radians(words[6])
+    axis = (b - a) / np.linalg.norm(b - a)
+    off = points - a
+    along = np.outer(off @ axis, axis)
+    return a + along + np.cos(angle) * (off - along) + np.sin(angle) * np.cross(axis, off)
+
+
+def placed(points, data):
+    """Points of an instance: moved by its first line, then turned by its second."""
+    lines = [[float(w) for w in line.split(",") if w.strip()] for line in data]
+    if len(lines) > 2 or (lines and len(lines[0]) != 3) or (len(lines) > 1 and len(lines[1]) != 7):
+        stop("an *Instance has lines of other than 3 numbers (its move) and 7 (its turn)")
+    if lines:
+        points = points + lines[0]
+    return turned(points, lines[1]) if len(lines) > 1 else points
+
+
+def inp_elements(part, options, data):
+    word = options.get("TYPE", "").upper()
+    count = abaqus_count(word)
+    kind = abaqus_kind(word, count)
+    if not kind:
+        stop(f"elements of type {word or '(none)'} are not read")
+    table = np.array(numbers(data), dtype=np.int64)
+    if len(table) % (count + 1):
+        stop(f"the elements of type {word} have not {count} nodes each")
+    table = table.reshape(-1, count + 1)
+    part.elements.append((kind, table))
+    if "ELSET" in options:
+        part.cell_sets.add(options["ELSET"], {}, [str(t) for t in table[:, 0]])
+
+
+def inp_keyword(part, keyword, options, data):
+    """One section that belongs to a part."""
+    if keyword == "NODE":
+        for line in data:
+            words = line.split(",")
+            part.nodes[int(words[0])] = [float(w) if w.strip() else 0.0
+                                         for w in (words[1:4] + ["", ""])[:3]]
+        if "NSET" in options:
+            part.node_sets.add(options["NSET"], {}, [line.split(",")[0] for line in data])
+    elif keyword == "ELEMENT":
+        inp_elements(part, options, data)
+    elif keyword == "NSET" and "NSET" in options:
+        if "ELSET" in options:
+            note(f"*NSET {options['NSET']} is made from an element set; it is left out")
+        else:
+            part.node_sets.add(options["NSET"], options, data)
+    elif keyword == "ELSET" and "ELSET" in options:
+        part.cell_sets.add(options["ELSET"], options, data)
+    elif keyword == "SURFACE" and "NAME" in options:
+        if options.get("TYPE", "ELEMENT").upper() == "NODE":
+            part.node_sets.add(options["NAME"], {}, [line.split(",")[0] for line in data])
+        else:
+            part.surfaces[options["NAME"]] = [[w.strip() for w in line.split(",")] for line in data]
+
+
 def read_inp(path):
-    nodes, elements = {}, []
-    node_sets, cell_sets = Named(), Named()
-    instances = 0
+    root = Part()
+    parts, model, called_as, part = {}, {}, {}, root
     for keyword, options, data in inp_sections(path):
-        if keyword == "NODE":
-            for line in data:
-                words = line.split(",")
-                nodes[int(words[0])] = [float(w) if w.strip() else 0.0
-                                        for w in (words[1:4] + ["", ""])[:3]]
-            if "NSET" in options:
-                node_sets.add(options["NSET"], {}, [line.split(",")[0] for line in data])
-        elif keyword == "ELEMENT":
-            word = options.get("TYPE", "").upper()
-            count = abaqus_count(word)
-            kind = abaqus_kind(word, count)
-            if not kind:
-                stop(f"elements of type {word or '(none)'} are not read")
-            table = np.array(numbers(data), dtype=np.int64)
-            if len(table) % (count + 1):
-                stop(f"the elements of type {word} have not {count} nodes each")
-            table = table.reshape(-1, count + 1)
-            elements.append((kind, table))
-            if "ELSET" in options:
-                cell_sets.add(options["ELSET"], {}, [str(t) for t in table[:, 0]])
-        elif keyword == "NSET" and "NSET" in options:
-            if "ELSET" in options:
-                note(f"*NSET {options['NSET']} is made from an element set; it is left out")
-            else:
-                node_sets.add(options["NSET"], options, data)
-        elif keyword == "ELSET" and "ELSET" in options:
-            cell_sets.add(options["ELSET"], options, data)
+        if keyword == "PART":
+            part = parts.setdefault(options.get("NAME", "").upper(), Part())
+        elif keyword in ("END PART", "END INSTANCE"):
+            part = root
         elif keyword == "INSTANCE":
-            instances += 1
-            if data or instances > 1:
-                stop("the file places instances of parts (*Instance with a translation, or several);"
-                     " write the model flat, without parts and assemblies")
-    return inp_body(nodes, elements, node_sets, cell_sets)
+            name = options.get("PART", "").upper()
+            if name not in parts:
+                stop(f"*Instance names the part '{name}', which is nowhere defined")
+            called = options.get("NAME", name)
+            model[called.upper()] = (parts[name], data)
+            called_as[called.upper()] = called
+        else:
+            inp_keyword(part, keyword, options, data)
+    if not model:
+        model = {name: (one, []) for name, one in parts.items()}
+        called_as = {name: name for name in parts}
+    if root.elements or not model:
+        model[""] = (root, [])
+    return inp_body(root, model, called_as)
 
 
-def inp_body(nodes, elements, node_sets, cell_sets):
-    if not nodes or not elements:
+def inp_body(root, model, called_as):
+    """All instances as one body; where there are several, `INSTANCE_SET` are their parts' sets."""
+    nodes, points, place, where = [], [], {}, {}
+    for name, (part, data) in model.items():
+        for tag in part.nodes:
+            place[(name, tag)] = len(place)
+        nodes += list(part.nodes)
+        if part.nodes:
+            points.append(placed(np.array(list(part.nodes.values())), data))
+    if not points or not any(part.elements for part, _ in model.values()):
         stop("the file holds no *NODE or no *ELEMENT")
-    place = {tag: k for k, tag in enumerate(nodes)}
-    body = Body(np.array(list(nodes.values())))
-    body.point_tags = np.array(list(nodes), dtype=np.int64)
-    where = {}
-    for kind, table in elements:
-        try:
-            rows = np.vectorize(place.__getitem__, otypes=[np.int64])(table[:, 1:])
-        except KeyError as error:
-            stop(f"an element has the node {error.args[0]}, which *NODE does not hold")
-        block = body.add_block(kind, rows, table[:, 0])
-        where.update((int(tag), (block, row)) for row, tag in enumerate(table[:, 0]))
-    for key, name in cell_sets.names.items():
-        by_block = {}
-        for tag in cell_sets.resolve(key):
-            if tag not in where:
-                stop(f"the set '{name}' has the element {tag}, which *ELEMENT does not hold")
-            by_block.setdefault(where[tag][0], []).append(where[tag][1])
-        for block, rows in by_block.items():
-            body.add_cells(name, block, rows)
-    for key, name in node_sets.names.items():
-        try:
-            body.point_sets[name] = [place[tag] for tag in node_sets.resolve(key)]
-        except KeyError as error:
-            stop(f"the set '{name}' has the node {error.args[0]}, which *NODE does not hold")
+    body = Body(np.concatenate(points))
+    if len(set(nodes)) == len(nodes):
+        body.point_tags = np.array(nodes, dtype=np.int64)
+    for name, (part, _) in model.items():
+        for kind, table in part.elements:
+            try:
+                rows = np.array([[place[(name, int(t))] for t in row] for row in table[:, 1:]])
+            except KeyError as error:
+                stop(f"an element has the node {error.args[0][1]}, which *NODE does not hold")
+            block = body.add_block(kind, rows, table[:, 0])
+            where.update(((name, int(tag)), (block, row)) for row, tag in enumerate(table[:, 0]))
+    alone = len([1 for part, _ in model.values() if part.elements]) == 1
+    for name, (part, _) in model.items():
+        inp_sets(body, model, part, name, "" if alone or not name else called_as[name] + "_", place, where)
+    if "" not in model:
+        inp_sets(body, model, root, "", "", place, where)
     return body
+
+
+def inp_sets(body, model, part, instance, prefix, place, where):
+    for key, name in part.cell_sets.names.items():
+        by_block = {}
+        for member in part.resolve(model, "cell_sets", key, instance):
+            if member not in where:
+                stop(f"the set '{name}' has the element {member[1]}, which *ELEMENT does not hold")
+            by_block.setdefault(where[member][0], []).append(where[member][1])
+        for block, rows in by_block.items():
+            body.add_cells(prefix + name, block, rows)
+    for key, name in part.node_sets.names.items():
+        try:
+            # Nodes of the assembly itself are reference points, of no element.
+            body.point_sets[prefix + name] = [
+                place[member] for member in part.resolve(model, "node_sets", key, instance)
+                if member[0] in model]
+        except KeyError as error:
+            stop(f"the set '{name}' has the node {error.args[0][1]}, which *NODE does not hold")
+    for name, lines in part.surfaces.items():
+        inp_surface(body, model, part, instance, prefix + name, lines, where)
+
+
+# Faces S1, S2, ... of Abaqus; corners count from 0.
+ABAQUS_SIDES = {
+    "triangle": [(0, 1), (1, 2), (2, 0)], "quad": [(0, 1), (1, 2), (2, 3), (3, 0)],
+    "tetra": [(0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0)],
+    "hexahedron": [(0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)],
+    "wedge": [(0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)],
+    "pyramid": [(0, 1, 2, 3), (0, 4, 1), (1, 4, 2), (2, 4, 3), (3, 4, 0)],
+}
+
+
+def inp_surface(body, model, part, instance, name, lines, where):
+    """Lines of an element or element set and the face, S1 to S6."""
+    out = []
+    for words in lines:
+        face = words[1].upper() if len(words) > 1 else ""
+        if not re.fullmatch(r"S[1-6]", face):
+            note(f"the surface '{name}' has the face '{face}', which is not read; it is left out")
+            return
+        spot, _, last = words[0].strip('"').upper().rpartition(".")
+        owner, home = (model[spot][0], spot) if spot in model else (part, instance)
+        members = [(home, int(last))] if last.isdigit() else owner.resolve(model, "cell_sets", last, home)
+        for member in members:
+            if member not in where:
+                stop(f"the surface '{name}' has the element {member[1]}, which *ELEMENT does not hold")
+            block, row = where[member]
+            kind, rows = body.blocks[block]
+            sides = ABAQUS_SIDES.get(re.sub(r"\d+$", "", kind), [])
+            if int(face[1]) > len(sides):
+                stop(f"the surface '{name}' has the face {face} of element {member[1]}, a {kind}")
+            corners = sides[int(face[1]) - 1]
+            out.append([rows[row][c] for c in corners] + middles(kind, rows[row], corners))
+    body.sides.setdefault(name, []).extend(out)
 
 
 # ---- Exodus ---------------------------------------------------------------------------------
@@ -264,7 +391,7 @@ def exodus_kind(word, count):
             first = {"triangle": 3, "quad": 4, "tetra": 4, "hexahedron": 8, "wedge": 6,
                      "pyramid": 5, "line": 2}[kind]
             return kind if count == first else kind + str(count)
-    stop(f"blocks of {word} are not read; a file of SPHERE elements holds points without cells")
+    stop(f"blocks of {word} are not read")
 
 
 def texts(nc, name, count, fallback):
@@ -300,8 +427,12 @@ def read_exodus(path):
         else:
             axes = [a for a in ("coordx", "coordy", "coordz") if a in nc.variables]
             points = np.stack([nc.variables[a][:] for a in axes], axis=1)
+        spheres = [k for k in range(size("num_el_blk")) if f"connect{k + 1}" in nc.variables and
+                   nc.variables[f"connect{k + 1}"].elem_type.upper().startswith("SPHERE")]
+        if spheres and len(spheres) == size("num_el_blk"):
+            return exodus_spheres(nc, points, size)
         body = Body(points)
-        where, kinds = [], []
+        where = []
         for k, name in enumerate(texts(nc, "eb_names", size("num_el_blk"), "block")):
             if f"connect{k + 1}" not in nc.variables:
                 continue
@@ -319,6 +450,45 @@ def read_exodus(path):
                 add_sides(body, name, where, np.asarray(nc.variables[f"elem_ss{k + 1}"][:]) - 1,
                           np.asarray(nc.variables[f"side_ss{k + 1}"][:]) - 1)
     return body
+
+
+class Points:
+    """Points with volumes instead of cells: columns of a table that kirsch-nodes reads."""
+
+    def __init__(self, columns):
+        self.columns = columns
+
+    def write(self, path):
+        with open(path, "w") as file:
+            file.write(",".join(self.columns) + "\n")
+            for row in zip(*(column.tolist() for column in self.columns.values())):
+                file.write(",".join(map(repr, row)) + "\n")
+
+
+def exodus_spheres(nc, points, size):
+    """SPHERE elements, as Peridigm and PeriLab keep their nodes: attributes are radius and volume."""
+    rows, volumes, blocks, sets = [], [], [], {}
+    for k, name in enumerate(texts(nc, "eb_names", size("num_el_blk"), "block")):
+        node = np.asarray(nc.variables[f"connect{k + 1}"][:])[:, 0] - 1
+        if f"attrib{k + 1}" not in nc.variables or nc.variables[f"attrib{k + 1}"].shape[1] < 2:
+            stop(f"the SPHERE elements of the block '{name}' have no attributes radius and volume")
+        rows.append(node)
+        volumes.append(np.asarray(nc.variables[f"attrib{k + 1}"][:])[:, 1])
+        blocks.append(np.full(len(node), int(nc.variables["eb_prop1"][k]) if "eb_prop1" in nc.variables
+                              else k + 1))
+        sets[name] = node
+    node = np.concatenate(rows)
+    xyz = np.zeros((len(points), 3))
+    xyz[:, : points.shape[1]] = points
+    columns = {"x": xyz[node, 0], "y": xyz[node, 1], "z": xyz[node, 2],
+               "volume": np.concatenate(volumes), "block_id": np.concatenate(blocks)}
+    for k, name in enumerate(texts(nc, "ns_names", size("num_node_sets"), "nodeset")):
+        if f"node_ns{k + 1}" in nc.variables:
+            sets[name] = np.asarray(nc.variables[f"node_ns{k + 1}"][:]) - 1
+    for name, members in sets.items():
+        if not re.fullmatch(r"block_\d+", name):
+            columns[re.sub(r"[^A-Za-z0-9_-]", "_", name)] = np.isin(node, members).astype(int)
+    return Points(columns)
 
 
 def add_sides(body, name, where, cells, sides):
@@ -471,6 +641,173 @@ def unv_body(points, tags, elements, groups):
 
 
 # ---- all others -----------------------------------------------------------------------------
+# ---- ANSYS .cdb -----------------------------------------------------------------------------
+# Elements of ANSYS in a plane or a shell; others that end up here are solids by their nodes.
+CDB_PLANES = {2, 25, 28, 35, 41, 42, 43, 55, 63, 77, 78, 82, 83, 93, 131, 132, 143, 145, 146, 150, 157,
+              181, 182, 183, 208, 209, 281}
+CDB_TETRAHEDRA = {72, 87, 92, 98, 123, 127, 148, 168, 187, 227, 232, 237, 285, 291}
+CDB_BRICKS = {5, 45, 46, 62, 64, 65, 69, 70, 73, 90, 95, 96, 97, 122, 128, 147, 164, 185, 186, 190, 226,
+              231, 236, 278, 279}
+# Kinds by which corners coincide, and where in the list of 8 (20) the nodes of each kind stand.
+CDB_CUTS = [
+    ("tetra", lambda n: n[2] == n[3] and n[4] == n[5] == n[6] == n[7], [0, 1, 2, 4],
+     [8, 9, 11, 16, 17, 18]),
+    ("wedge", lambda n: n[2] == n[3] and n[6] == n[7], [0, 1, 2, 4, 5, 6],
+     [8, 9, 11, 12, 13, 15, 16, 17, 18]),
+    ("pyramid", lambda n: n[4] == n[5] == n[6] == n[7], [0, 1, 2, 3, 4],
+     [8, 9, 10, 11, 16, 17, 18, 19]),
+    ("hexahedron", lambda n: True, list(range(8)), list(range(8, 20))),
+]
+
+
+def cdb_widths(line):
+    """Widths of the fields of a Fortran format such as (3i9,6e21.13e3), with their letters."""
+    out = []
+    for count, letter, width in re.findall(r"(\d*)([ieEIfFgG])(\d+)", line.split(")")[0]):
+        out += [(letter.lower(), int(width))] * int(count or 1)
+    if not line.lstrip().startswith("(") or not out:
+        stop(f"expected a format such as (3i9,6e21.13e3), found '{line.strip()[:40]}'")
+    return out
+
+
+def cdb_fields(line, widths):
+    """The fields of a line; empty ones at its end are left out."""
+    at, out = 0, []
+    for letter, width in widths:
+        word = line[at:at + width].strip()
+        if at >= len(line.rstrip()):
+            break
+        out.append((int if letter == "i" else float)(word.replace("D", "e") or 0))
+        at += width
+    return out
+
+
+def cdb_nodes(lines, words, nodes):
+    widths = cdb_widths(next(lines, ""))
+    skip = sum(letter == "i" for letter, _ in widths)
+    for line in lines:
+        if line.startswith(("N,", "-1")) or line.strip() == "-1":
+            return
+        row = cdb_fields(line, widths)
+        nodes[row[0]] = (row[skip:skip + 3] + [0.0, 0.0, 0.0])[:3]
+    stop("the nodes (NBLOCK) do not end: the file is cut")
+
+
+def cdb_elements(lines, words, elements):
+    if len(words) < 3 or words[2].upper() != "SOLID":
+        stop("an EBLOCK is not of the kind SOLID; write the file with CDWRITE,DB")
+    widths = cdb_widths(next(lines, ""))
+    row, wanted = [], 0
+    for line in lines:
+        if line.strip() == "-1":
+            if wanted:
+                stop("an element of EBLOCK has fewer nodes than it says")
+            return
+        row += cdb_fields(line, widths)
+        wanted = row[8] if len(row) > 8 else 0
+        if len(row) >= 11 + wanted:
+            elements.append((row[10], row[1], row[0], row[11:11 + wanted]))
+            row, wanted = [], 0
+    stop("the elements (EBLOCK) do not end: the file is cut")
+
+
+def cdb_component(lines, words, components):
+    """CMBLOCK,NAME,NODE,n: numbers, a negative one ends a range that the one before begins."""
+    name, kind, count = words[1].strip(), words[2].upper()[:4], int(words[3].split("!")[0])
+    widths, members, got = cdb_widths(next(lines, "")), [], 0
+    while got < count:
+        row = cdb_fields(next(lines, ""), widths)
+        if not row:
+            stop(f"the component '{name}' ends before its {count} numbers: the file is cut")
+        got += len(row)
+        for number in row:
+            members += range(members[-1] + 1, -number + 1) if number < 0 else [number]
+    components.append((name, kind, members))
+
+
+def cdb_kind(tag, number, nodes):
+    """Kind of an element, and its nodes in the order of VTK."""
+    n = list(nodes)
+    if number in CDB_PLANES:
+        tri = len(n) in (3, 6) or n[2] == n[3]
+        first = n[:3] if tri else n[:4]
+        second = n[4:8] if len(n) >= 8 else n[3:6] if len(n) == 6 else []
+        second = [second[0], second[1], second[3]] if tri and len(second) == 4 else second
+    elif number in CDB_TETRAHEDRA and len(n) in (4, 10):
+        tri, first, second = None, n[:4], n[4:]
+    elif number in CDB_BRICKS and len(n) in (8, 20):
+        kind, _, corner, middle = next(cut for cut in CDB_CUTS if cut[1](n))
+        first, second = [n[k] for k in corner], [n[k] for k in middle] if len(n) == 20 else []
+        return cdb_order(tag, kind, first, second)
+    else:
+        stop(f"element {tag} is of ANSYS's type {number} with {len(n)} nodes, which is not read")
+    return cdb_order(tag, {True: "triangle", False: "quad", None: "tetra"}[tri], first, second)
+
+
+def cdb_order(tag, kind, first, second):
+    """Without the middles of edges where one of them is missing (number 0)."""
+    if not second or 0 in second:
+        if any(second):
+            note(f"element {tag} lacks the middle of an edge; its edges count as straight")
+        return kind, first
+    return f"{kind}{len(first) + len(second)}", first + second
+
+
+def read_cdb(path):
+    nodes, elements, components, types = {}, [], [], {}
+    with open(path, errors="replace") as file:
+        lines = iter(file.read().splitlines())
+    for line in lines:
+        words = [w.strip() for w in line.split(",")]
+        key = words[0].upper()
+        if key == "NBLOCK":
+            cdb_nodes(lines, words, nodes)
+        elif key == "EBLOCK":
+            cdb_elements(lines, words, elements)
+        elif key == "CMBLOCK":
+            cdb_component(lines, words, components)
+        elif key == "ET" and len(words) > 2 and words[1].isdigit() and words[2].isdigit():
+            types[int(words[1])] = int(words[2])
+    if not nodes or not elements:
+        stop("the file holds no NBLOCK or no EBLOCK; write it with CDWRITE,DB")
+    return cdb_body(nodes, elements, components, types)
+
+
+def cdb_body(nodes, elements, components, types):
+    place = {tag: k for k, tag in enumerate(nodes)}
+    body = Body(np.array(list(nodes.values())))
+    body.point_tags = np.array(list(nodes), dtype=np.int64)
+    kinds, where, materials = {}, {}, {}
+    for tag, kind, material, members in elements:
+        if kind not in types:
+            stop(f"element {tag} is of type {kind}, which no ET command defines")
+        name, row = cdb_kind(tag, types[kind], members)
+        for node in row:
+            if node not in place:
+                stop(f"element {tag} has the node {node}, which NBLOCK does not hold")
+        rows = kinds.setdefault(name, ([], []))
+        where[tag] = (name, len(rows[0]))
+        rows[0].append(tag)
+        rows[1].append([place[node] for node in row])
+        materials.setdefault(material, []).append(tag)
+    number = {name: body.add_block(name, rows, np.array(tags)) for name, (tags, rows) in kinds.items()}
+    sets = [(name, members) for name, kind, members in components if kind == "ELEM"]
+    if len(materials) > 1:
+        sets += [(f"material_{k}", members) for k, members in sorted(materials.items())]
+    for name, members in sets:
+        by_block = {}
+        for tag in members:
+            if tag not in where:
+                stop(f"the component '{name}' has the element {tag}, which EBLOCK does not hold")
+            by_block.setdefault(number[where[tag][0]], []).append(where[tag][1])
+        for block, rows in by_block.items():
+            body.add_cells(name, block, rows)
+    for name, kind, members in components:
+        if kind == "NODE":
+            body.point_sets[name] = [place[tag] for tag in members if tag in place]
+    return body
+
+
 def read_meshio(path):
     import meshio
 
@@ -637,15 +974,20 @@ def main():
     try:
         if end == ".inp":
             body = read_inp(source)
+        elif end == ".cdb":
+            body = read_cdb(source)
         elif end == ".unv":
             body = read_unv(source)
         elif end in (".e", ".ex2", ".exo", ".g", ".gen"):
             body = read_exodus(source)
         else:
             body = read_meshio(source)
-        if not body.blocks:
+        if isinstance(body, Points):
+            body.write(target)
+        elif not body.blocks:
             stop("the file holds no cells")
-        write_msh(target, body)
+        else:
+            write_msh(target, body)
     except ImportError as error:
         package = {"meshio": "python3-meshio", "netCDF4": "python3-netcdf4"}.get(error.name, error.name)
         stop(f"{error.name} is missing; on Debian: apt-get install {package}")

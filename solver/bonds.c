@@ -395,6 +395,7 @@ struct kr_bonds *kr_bonds_create(const struct kr_nodes *nodes, const struct kr_m
     find_lattice(&w);
     w.reach_in_cells = (int)ceil(reach / w.size_of_lattice);
     make_kinds(&w);
+    kr_weights_keep(w.weights, w.search, w.on_lattice);
 
     for_all_slices(&w, count_slice);
     sum_up(b->first, b->n_slices);
@@ -476,68 +477,6 @@ double kr_bonds_clear(struct kr_bonds *b, size_t i, size_t j) {
         weight += (size_t)stored;
     }
     return 0;
-}
-
-/* Twice the signed area of the triangle p q r. */
-static double turn(const double p[2], const double q[2], const double r[2]) {
-    return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
-}
-
-static int segments_meet(const double p[2], const double q[2], const double a[2],
-                         const double c[2]) {
-    double a_side = turn(p, q, a), c_side = turn(p, q, c);
-    double p_side = turn(a, c, p), q_side = turn(a, c, q);
-    if (a_side == 0 && c_side == 0) /* on one line: they meet where their extents overlap */
-        return fmax(fmin(p[0], q[0]), fmin(a[0], c[0])) <=
-                   fmin(fmax(p[0], q[0]), fmax(a[0], c[0])) &&
-               fmax(fmin(p[1], q[1]), fmin(a[1], c[1])) <=
-                   fmin(fmax(p[1], q[1]), fmax(a[1], c[1]));
-    return a_side * c_side <= 0 && p_side * q_side <= 0;
-}
-
-/* Whether some node of the slice is so near the segment's extent that a bond may cross it. */
-static int may_cross(const struct kr_bonds *b, size_t slice, const double from[2],
-                     const double to[2]) {
-    /* Bonds are a little longer than the horizon; twice it is surely enough. */
-    double reach = 2 * b->material.horizon;
-    size_t end = slice * KR_LANES + KR_LANES < b->n ? slice * KR_LANES + KR_LANES : b->n;
-    for (size_t i = slice * KR_LANES; i < end; i++) {
-        int near = 1;
-        for (int d = 0; d < 2; d++)
-            near &= b->x[d][i] >= fmin(from[d], to[d]) - reach &&
-                    b->x[d][i] <= fmax(from[d], to[d]) + reach;
-        if (near)
-            return 1;
-    }
-    return 0;
-}
-
-size_t kr_bonds_cut(struct kr_bonds *b, const double from[2], const double to[2], int count) {
-    kr_assert(b->dim == 2);
-    size_t ends = 0;
-    for (size_t slice = 0; slice < b->n_slices; slice++) {
-        if (!may_cross(b, slice, from, to))
-            continue;
-        struct kr_bond_walk walk = kr_bonds_walk(b, slice);
-        struct kr_bond bond;
-        while (kr_bonds_next(b, &walk, &bond)) {
-            /* Always from the lower to the higher index: both ends must decide alike. */
-            size_t low = bond.i < bond.j ? bond.i : bond.j, high = bond.i + bond.j - low;
-            double p[2] = {b->x[0][low], b->x[1][low]}, q[2] = {b->x[0][high], b->x[1][high]};
-            if (!segments_meet(p, q, from, to))
-                continue;
-            b->living[bond.row] &= (uint8_t)~(1u << bond.lane);
-            double volume = bond.weight * b->volume[bond.j];
-            if (count)
-                b->lost_volume[bond.i] += volume;
-            else
-                b->family_volume[bond.i] -= volume;
-            ends++;
-        }
-    }
-    count_living(b);
-    kr_bonds_find_twins(b);
-    return ends / 2;
 }
 
 double kr_bonds_damage(const struct kr_bonds *b, size_t i) {

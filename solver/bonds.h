@@ -118,11 +118,6 @@ void kr_bonds_free(struct kr_bonds *bonds);
 double *kr_bonds_padded(size_t n);
 void kr_bonds_padded_free(double *array);
 
-/** Cut the bonds that cross the segment from a to b [m] (2D); touching counts.
- *  count: whether they count in the damage (plates paper eq. 10) or leave the family at once.
- *  Returns the number of pairs cut. */
-size_t kr_bonds_cut(struct kr_bonds *bonds, const double a[2], const double b[2], int count);
-
 /** Damage of a node, 0 to 1: 1 - sum of mu phi V over sum of phi V; theory.md (9), paper eq. 10. */
 double kr_bonds_damage(const struct kr_bonds *bonds, size_t i);
 

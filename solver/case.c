@@ -206,6 +206,23 @@ static const struct kr_deck_key set_keys[] = {
     {"lower", PLACE_OF(SET_AT(lower)), .fallback = "",
      .text = "Or nodes in a box: its corner of least coordinates. Goes with `upper`."},
     {"upper", PLACE_OF(SET_AT(upper)), .fallback = "", .text = "Its opposite corner."},
+    {"centre", PLACE_OF(SET_AT(centre)), .fallback = "",
+     .text = "Or nodes in a disc (ball in 3D): its centre. Goes with `radius`."},
+    {"radius", NUMBER_OF(SET_AT(radius), "m"), .fallback = "", POSITIVE, .text = "Its radius."},
+    {"through", PLACE_OF(SET_AT(through)), .fallback = "",
+     .text = "Or nodes on one side of a line (plane in 3D): a point on it. Goes with `normal`."},
+    {"normal", KR_DECK_VECTOR, SET_AT(normal), "1", .fallback = "", .count = 3, .fewest = 2,
+     .text = "Direction, of any length, to the side that counts."},
+    {"points", KR_DECK_NUMBERS, SET_AT(points), .unit = "m", .count = 2, .fallback = "",
+     .text = "Or nodes in a polygon (2D): its corners in turn."},
+    {"union", KR_DECK_TEXTS, SET_AT(join), .fallback = "",
+     .text = "Or all nodes of these sets, which stand above this one or in the mesh."},
+    {"intersection", KR_DECK_TEXTS, SET_AT(meet), .fallback = "",
+     .text = "Or the nodes that are in all of these sets."},
+    {"difference", KR_DECK_TEXTS, SET_AT(less), .fallback = "",
+     .text = "Or the nodes of the first set that are in none of the others."},
+    {"not", KR_DECK_TEXTS, SET_AT(without), .fallback = "",
+     .text = "Or the nodes that are in none of these sets."},
     {NULL},
 };
 
@@ -214,8 +231,8 @@ static const struct kr_deck_key nodes_keys[] = {
      .text = "Reach of the bonds; 3 to 6 spacings, at least 2."},
     {"partial_volume", KR_DECK_CHOICE, AT(partial_volume), .words = KR_PARTIAL_VOLUME_WORDS,
      .fallback = "exact-centroid",
-     .text = "Share of a cell that counts where the horizon cuts it: `exact`, the area of the cell "
-             "inside the circle, the mean of both ends of a bond; `exact-centroid`: the same, the bond "
+     .text = "Share of a cell that counts where the horizon cuts it: `exact`, the area (volume) of the "
+             "cell inside the circle (sphere), the mean of both ends of a bond; `exact-centroid`: the same, the bond "
              "reaching to the centroid of that part; `hhb`: linear over the width of the cell, the "
              "mean of both ends, and the default of nodes that came without cells; `none`: all or "
              "nothing; "
@@ -229,12 +246,13 @@ static const struct kr_deck_key nodes_keys[] = {
     {"surface_deformation", KR_DECK_CHOICE, AT(surface_deformation),
      .words = KR_DEFORMATION_WORDS, .fallback = "mean-over-axes",
      .text = "The homogeneous deformation of the energy correction. `mean-over-axes`: the mean of "
-             "both uniaxial strains, smooth and safe; `uniaxial-y`, `uniaxial-x`: the paper's, exact "
-             "for a load in that direction, but rough at its edges and impossible between close "
-             "holes; `isotropic`."},
+             "the uniaxial strains along all axes, smooth and safe; `uniaxial-y`, `uniaxial-x`, in 3D "
+             "also `uniaxial-z`: the paper's, exact for a load in that direction, but rough at its "
+             "edges and impossible between close holes; `isotropic`."},
     {"sets", LIST_OF(KR_DECK_MAP, struct kr_case_set, set_keys), .offset = AT(sets),
      .text = "Named sets of nodes, for loads and no-fail zones: `top: {within: 0.3 mm, of: top}` "
-             "or `{lower: [0 mm, 0 mm], upper: [1 mm, 2 mm]}`."},
+             "or `{lower: [0 mm, 0 mm], upper: [1 mm, 2 mm]}`. A set is one of boundary, box, disc, "
+             "half space, polygon and a combination of other sets."},
     {NULL},
 };
 
@@ -256,16 +274,37 @@ static const struct kr_deck_key material_keys[] = {
     {NULL},
 };
 
+#define CRACK_AT(field) offsetof(struct kr_case_crack, field)
+#define VECTOR_3(where, si)                                                                        \
+    .type = KR_DECK_VECTOR, .offset = (where), .unit = (si), .count = 3, .fallback = ""
+static const struct kr_deck_key disc_keys[] = {
+    {"centre", VECTOR_3(CRACK_AT(centre), "m"), .text = "Its centre."},
+    {"normal", VECTOR_3(CRACK_AT(normal), "1"), .text = "Across it, of any length: `[0, 0, 1]`."},
+    {"radius", NUMBER_OF(CRACK_AT(radius), "m"), .fallback = "", POSITIVE, .text = "Its radius."},
+    {NULL},
+};
+
 static const struct kr_deck_key crack_keys[] = {
-    {"from", PLACE_OF(offsetof(struct kr_case_crack, from)), .text = "One end."},
-    {"to", PLACE_OF(offsetof(struct kr_case_crack, to)), .text = "The other end."},
+    {"from", VECTOR_OF(CRACK_AT(from)), .fallback = "",
+     .text = "In a plate: one end of a straight crack. Goes with `to`."},
+    {"to", VECTOR_OF(CRACK_AT(to)), .fallback = "", .text = "The other end."},
+    {"points", KR_DECK_NUMBERS, CRACK_AT(points), .unit = "m", .count = 2, .fallback = "",
+     .text = "In a plate: the corners of a crack with bends, from end to end."},
+    {"polygon", KR_DECK_NUMBERS, CRACK_AT(polygon), .unit = "m", .count = 3, .fallback = "",
+     .text = "In a solid: the corners of a plane polygon in turn."},
+    {"disc", KR_DECK_SECTION, .keys = disc_keys, .text = "In a solid: a round crack (penny)."},
+    {"file", KR_DECK_TEXT, CRACK_AT(file), .fallback = "",
+     .text = "In a solid: a surface of triangles, open or closed; an STL file, binary or ASCII; a path "
+             "from the deck's folder."},
+    {"unit", NUMBER_OF(CRACK_AT(unit), "m"), .fallback = "", POSITIVE,
+     .text = "What 1 in the STL file stands for, `1 mm`. Goes with `file`."},
     {NULL},
 };
 
 static const struct kr_deck_key cracks_keys[] = {
     {"precracks", LIST_OF(KR_DECK_LIST, struct kr_case_crack, crack_keys), .offset = AT(cracks),
-     .text = "Straight cracks that are there from the beginning: they cut every bond that "
-             "crosses them."},
+     .text = "Cracks that are there from the beginning: they cut every bond that crosses or touches "
+             "them. In a plate straight or bent lines, in a solid polygons, discs and surfaces."},
     {"count_precrack", KR_DECK_BOOLEAN, AT(count_precrack), .fallback = "true",
      .text = "Whether the bonds cut by them count as broken in Damage."},
     {NULL},
@@ -286,6 +325,15 @@ static const struct kr_deck_key load_keys[] = {
     {"body_force", LOAD_OF(LOAD_AT(body_force), "N/m^3"), .text = "Force per volume."},
     {"ramp", NUMBER_OF(LOAD_AT(ramp), "s"), .fallback = "0 s", NOT_NEGATIVE,
      .text = "The load grows evenly from 0 to its full value in this time; 0: at once."},
+    {NULL},
+};
+
+static const struct kr_deck_key initial_keys[] = {
+    {"displacement", LOAD_OF(AT(initial_displacement), "m"),
+     .text = "Displacement of every node at time 0, an expression in x, y, z a component."},
+    {"velocity", LOAD_OF(AT(initial_velocity), "m/s"),
+     .text = "Velocity of every node at time 0, such as `[100*x m/s, 100*y m/s]` of a ring that flies "
+             "apart."},
     {NULL},
 };
 
@@ -353,6 +401,8 @@ const struct kr_deck_key kr_case_keys[] = {
      .text = "How kirsch-nodes turns cells into peridynamic nodes."},
     {"material", KR_DECK_SECTION, .keys = material_keys, .text = "What the plate is made of."},
     {"cracks", KR_DECK_SECTION, .keys = cracks_keys, .text = "Cracks before the run."},
+    {"initial", KR_DECK_SECTION, .keys = initial_keys,
+     .text = "How the run begins where it does not begin at rest. Prescribed motions win over it."},
     {"loads", LIST_OF(KR_DECK_LIST, struct kr_case_load, load_keys), .offset = AT(loads),
      .text = "What moves or pulls the plate. Each load has a set and just one of displacement, "
              "velocity, traction and body_force."},

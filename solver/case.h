@@ -18,7 +18,7 @@
 #define KR_VOID_WORDS "sphere ellipsoid cylinder stl"
 #define KR_PARTIAL_VOLUME_WORDS "hhb none hhb-one-sided exact exact-centroid"
 #define KR_SURFACE_WORDS "energy none volume force-density"
-#define KR_DEFORMATION_WORDS "uniaxial-y uniaxial-x isotropic mean-over-axes"
+#define KR_DEFORMATION_WORDS "uniaxial-y uniaxial-x isotropic mean-over-axes uniaxial-z"
 #define KR_MODEL_WORDS "plane-stress plane-strain solid"
 #define KR_MICROMODULUS_WORDS "constant conical"
 #define KR_PRESET_WORDS "none plates-paper"
@@ -55,7 +55,7 @@ enum kr_surface_correction {
     KR_SURFACE_VOLUME,
     KR_SURFACE_FORCE_DENSITY,
 };
-enum kr_deformation { KR_UNIAXIAL_Y, KR_UNIAXIAL_X, KR_ISOTROPIC, KR_MEAN_OVER_AXES };
+enum kr_deformation { KR_UNIAXIAL_Y, KR_UNIAXIAL_X, KR_ISOTROPIC, KR_MEAN_OVER_AXES, KR_UNIAXIAL_Z };
 enum kr_precision { KR_DOUBLE, KR_MIXED };
 enum kr_model { KR_PLANE_STRESS, KR_PLANE_STRAIN, KR_SOLID };
 enum kr_micromodulus { KR_CONSTANT, KR_CONICAL };
@@ -126,10 +126,20 @@ struct kr_case_set {
     double within;    /* m: nodes within this distance ... */
     const char *of;   /* ... of this boundary */
     double lower[3], upper[3]; /* m: or nodes in this box */
+    double centre[3], radius;  /* m: or in this disc or ball */
+    double through[3], normal[3]; /* m, 1: or on the side of a line or plane that `normal` shows to */
+    struct kr_deck_list points;   /* double, m: or in this polygon (2D) */
+    struct kr_deck_list join, meet, less, without; /* const char *: or made of other sets */
 };
 
+/* A crack before the run: a line in a plate; a polygon, disc or surface of triangles in a solid. */
 struct kr_case_crack {
-    double from[3], to[3]; /* m */
+    double from[2], to[2];       /* m: straight, or ... */
+    struct kr_deck_list points;  /* double, m: x and y of the corners of a line with bends */
+    struct kr_deck_list polygon; /* double, m: x, y, z of the corners of a plane polygon */
+    double centre[3], normal[3], radius; /* m, 1, m: disc */
+    const char *file; /* STL */
+    double unit;      /* m: what 1 in the file stands for */
 };
 
 struct kr_case_load {
@@ -183,6 +193,9 @@ struct kr_case {
     struct kr_deck_list cracks; /* struct kr_case_crack */
     int count_precrack;
 
+    /* initial */
+    struct kr_deck_formula initial_displacement[3], initial_velocity[3]; /* m, m/s */
+
     struct kr_deck_list loads;   /* struct kr_case_load */
     struct kr_deck_list no_fail; /* const char * */
 
@@ -233,6 +246,26 @@ void kr_case_check(struct kr_deck *deck, const struct kr_case *c);
 
 /** Dimensions of the body: 3 for a solid, else 2. */
 int kr_case_dim(const struct kr_case *c);
+
+/** The part of it that looks at pre-cracks. */
+void kr_case_check_cracks(struct kr_deck *deck, const struct kr_case *c);
+
+/** Normal of a polygon in space (n x 3), as long as twice its area; 0 for one without. */
+void kr_case_normal(size_t n, const double *corner, double normal[3]);
+
+/** Whether the deck gives components for a vector, and as many as the model has dimensions; a fault
+ *  where it gives others. */
+int kr_case_check_count(struct kr_deck *deck, const struct kr_case *c, const void *vector);
+
+/** The part of it that looks at one set of nodes. */
+void kr_case_check_set(struct kr_deck *deck, const struct kr_case *c,
+                       const struct kr_case_set *set);
+
+/** Fault a box whose upper corner is not above the lower one. */
+void kr_case_check_box(struct kr_deck *deck, const double *lower, const double *upper, int dim);
+
+/** Letters, digits, _ and -: a name becomes a dataset of HDF5 and a column of CSV. */
+int kr_case_is_name(const char *text);
 
 /** Complete outline and pores: which centres were given, and files from the deck's folder. `c` must
  *  be the struct that the deck was read into. */

@@ -17,10 +17,6 @@ static const double most_nodes = 2e9;
 /* Quotients of decimals miss by a few bits: 0.16 mm holds "3 spacings" of 0.16/3 mm. */
 static const double rounding = 1e-9;
 
-static double larger(const double *of) {
-    return of[0] > of[1] ? of[0] : of[1];
-}
-
 static void check_mesh(struct kr_deck *deck, const struct kr_case *c) {
     double narrow = fmin(c->width, c->height);
     if (!(c->spacing > 0) || !(narrow > 0))
@@ -43,14 +39,12 @@ static void check_mesh(struct kr_deck *deck, const struct kr_case *c) {
                       c->horizon, narrow);
 }
 
-/* Letters, digits, _ and -: a name becomes a dataset of HDF5 and a column of CSV. */
-static int is_name(const char *text) {
+int kr_case_is_name(const char *text) {
     const char *good = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
     return *text && !text[strspn(text, good)];
 }
 
-/* Whether a vector that the deck gives has one component an axis; a fault if not. */
-static int check_count(struct kr_deck *deck, const struct kr_case *c, const void *vector) {
+int kr_case_check_count(struct kr_deck *deck, const struct kr_case *c, const void *vector) {
     size_t count = kr_deck_count(deck, vector), dim = (size_t)kr_case_dim(c);
     if (count && count != dim)
         kr_deck_fault(deck, vector, "found %zu component%s, expected %zu: the model is %s", count,
@@ -59,38 +53,11 @@ static int check_count(struct kr_deck *deck, const struct kr_case *c, const void
     return count == dim;
 }
 
-static void check_box(struct kr_deck *deck, const double *lower, const double *upper, int dim) {
+void kr_case_check_box(struct kr_deck *deck, const double *lower, const double *upper, int dim) {
     for (int k = 0; k < dim; k++)
         if (lower[k] >= upper[k])
             kr_deck_fault(deck, upper, "%c = %g m is not above that of `lower`, %g m", "xyz"[k],
                           upper[k], lower[k]);
-}
-
-static void check_set(struct kr_deck *deck, const struct kr_case *c,
-                      const struct kr_case_set *set) {
-    int within = kr_deck_given(deck, &set->within), of = kr_deck_given(deck, &set->of);
-    int lower = kr_deck_given(deck, set->lower), upper = kr_deck_given(deck, set->upper);
-    if (!is_name(set->name))
-        kr_deck_fault(deck, &set->name,
-                      "a set's name may have letters, digits, '_' and '-', no others");
-    if ((within || of) && (lower || upper))
-        kr_deck_fault(deck, &set->name,
-                      "both a boundary (within, of) and a box (lower, upper); a "
-                      "set is one of them");
-    else if (within != of)
-        kr_deck_fault(deck, &set->name, "'%s' goes with '%s', which is missing",
-                      within ? "within" : "of", within ? "of" : "within");
-    else if (lower != upper)
-        kr_deck_fault(deck, &set->name, "'%s' goes with '%s', which is missing",
-                      lower ? "lower" : "upper", lower ? "upper" : "lower");
-    else if (lower && check_count(deck, c, set->lower) && check_count(deck, c, set->upper))
-        check_box(deck, set->lower, set->upper, kr_case_dim(c));
-    else if (!lower && !within)
-        kr_deck_fault(deck, &set->name,
-                      "empty; expected 'within' and 'of', or 'lower' and 'upper'");
-    if (of && set->of && !is_name(set->of))
-        kr_deck_fault(deck, &set->of,
-                      "found '%.40s', expected the name of a boundary, such as 'top'", set->of);
 }
 
 static int is_all_free(const struct kr_deck_formula formula[3]) {
@@ -119,7 +86,7 @@ static void check_load(struct kr_deck *deck, const struct kr_case *c,
         kr_deck_fault(deck, &load->set,
                       "the load does nothing; expected one of displacement, velocity, traction and "
                       "body_force");
-    else if (check_count(deck, c, first) && is_all_free(first))
+    else if (kr_case_check_count(deck, c, first) && is_all_free(first))
         kr_deck_fault(deck, first, "all components are free; the load does nothing");
 }
 
@@ -127,24 +94,19 @@ static void check_sets_and_loads(struct kr_deck *deck, const struct kr_case *c) 
     const struct kr_case_set *sets = c->sets.item;
     const struct kr_case_load *loads = c->loads.item;
     for (size_t i = 0; i < c->sets.count; i++)
-        check_set(deck, c, &sets[i]);
+        kr_case_check_set(deck, c, &sets[i]);
     for (size_t i = 0; i < c->loads.count; i++)
         check_load(deck, c, &loads[i]);
 }
 
-static void check_cracks(struct kr_deck *deck, const struct kr_case *c) {
-    const struct kr_case_crack *cracks = c->cracks.item;
-    for (size_t i = 0; i < c->cracks.count; i++) {
-        const double *from = cracks[i].from, *to = cracks[i].to;
-        int outside = larger((double[]){from[0], to[0]}) <= 0 || fmin(from[0], to[0]) >= c->width ||
-                      larger((double[]){from[1], to[1]}) <= 0 || fmin(from[1], to[1]) >= c->height;
-        if (!check_count(deck, c, from) || !check_count(deck, c, to))
-            continue;
-        if (from[0] == to[0] && from[1] == to[1])
-            kr_deck_fault(deck, to, "the crack ends where it begins, (%g, %g) m", to[0], to[1]);
-        else if (outside && c->width > 0 && c->height > 0)
-            kr_deck_fault(deck, from, "the crack lies outside the plate of %g m x %g m", c->width,
-                          c->height);
+static void check_initial(struct kr_deck *deck, const struct kr_case *c) {
+    const struct kr_deck_formula *field[] = {c->initial_displacement, c->initial_velocity};
+    for (int k = 0; k < 2; k++) {
+        kr_case_check_count(deck, c, field[k]);
+        for (int d = 0; d < 3; d++)
+            if (field[k][d].is_free)
+                kr_deck_fault(deck, &field[k][d], "found 'free', expected an expression or 0; nothing "
+                                                  "is free at time 0");
     }
 }
 
@@ -172,6 +134,12 @@ static void check_times(struct kr_deck *deck, const struct kr_case *c) {
             kr_deck_fault(deck, &at[i], "%g s is after end_time, %g s", at[i], c->end_time);
 }
 
+static void check_deformation(struct kr_deck *deck, const struct kr_case *c) {
+    if (c->surface_deformation == KR_UNIAXIAL_Z && c->model <= KR_PLANE_STRAIN)
+        kr_deck_fault(deck, &c->surface_deformation,
+                      "uniaxial-z is for bodies in 3D; a plate has x and y");
+}
+
 static void check_law(struct kr_deck *deck, const struct kr_case *c) {
     char known[256] = "";
     if (!c->law || kr_law_named(c->law))
@@ -193,11 +161,13 @@ void kr_case_check(struct kr_deck *deck, const struct kr_case *c) {
     kr_case_check_geometry(deck, c);
     kr_case_check_solid(deck, c);
     check_sets_and_loads(deck, c);
-    check_cracks(deck, c);
+    kr_case_check_cracks(deck, c);
+    check_initial(deck, c);
     check_times(deck, c);
     for (size_t i = 0; i < c->boxes.count; i++)
         if (kr_deck_given(deck, boxes[i].lower) && kr_deck_given(deck, boxes[i].upper))
-            check_box(deck, boxes[i].lower, boxes[i].upper, 2);
+            kr_case_check_box(deck, boxes[i].lower, boxes[i].upper, 2);
+    check_deformation(deck, c);
     check_law(deck, c);
 }
 

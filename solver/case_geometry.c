@@ -212,8 +212,8 @@ static void check_part_name(struct kr_deck *deck, const struct kr_case_outline *
     for (size_t k = 0; part->name && k < sizeof taken / sizeof *taken; k++)
         is_taken |= !strcmp(part->name, taken[k]);
     if (is_taken)
-        kr_deck_fault(deck, &part->name, "'%s' is the name of another boundary; take one of its own",
-                      part->name);
+        kr_deck_fault(deck, &part->name,
+                      "'%s' is the name of another boundary; take one of its own", part->name);
 }
 
 static void check_outline(struct kr_deck *deck, const struct kr_case *c) {
@@ -250,8 +250,10 @@ static void check_distribution(struct kr_deck *deck, const struct kr_case_pores 
     kr_case_word(KR_DISTRIBUTION_WORDS, pores->distribution, word);
     for (int k = 0; k < 2; k++)
         if (by_mean && !kr_deck_given(deck, value[k]))
-            kr_deck_fault(deck, value[k], "missing; expected %s of the radius, such as '0.3 mm', for "
-                                          "distribution %s", name[k], word);
+            kr_deck_fault(deck, value[k],
+                          "missing; expected %s of the radius, such as '0.3 mm', for distribution "
+                          "%s",
+                          name[k], word);
         else if (!by_mean && kr_deck_given(deck, value[k]))
             kr_deck_fault(deck, value[k], "distribution %s has no %s", word, name[k]);
     if (pores->shape == KR_PORE_ELLIPSE && !kr_deck_given(deck, pores->aspect))

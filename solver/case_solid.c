@@ -103,7 +103,7 @@ void kr_case_check_solid(struct kr_deck *deck, const struct kr_case *c) {
         check_void(deck, c, &hollow[k]);
     if (has_body && !kr_deck_given(deck, &c->body.unit))
         kr_deck_fault(deck, &c->body.unit, "missing; expected unit: 1 mm, for lengths in the file");
-    if (has_body && (c->holes.count || c->outline.shape != KR_OUTLINE_RECTANGLE))
+    if (has_body && (c->holes.count || !kr_case_is_rectangle(&c->outline)))
         kr_deck_fault(deck, &c->body.file,
                       "a body from a file has neither outline nor holes; make them voids of it");
 }

@@ -14,10 +14,13 @@
 #include "doctor.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/file.h>
+#include <sys/prctl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -28,7 +31,8 @@ static const char usage[] =
     "kirsch doctor            is everything installed and sane?\n"
     "kirsch --deck-reference  print the reference of the deck's keys (Markdown)\n"
     "\n"
-    "  --force            run all steps";
+    "  --force            run all steps\n"
+    "  --until STEP       stop behind it: pores, mesh, nodes, solve, track or plot";
 
 struct step {
     const char *program;
@@ -42,16 +46,19 @@ static const struct step steps[] = {
     {"kirsch-mesh", "geometry mesh nodes", {"pores.txt"}, {"plate.msh"}},
     {"kirsch-nodes", "nodes material loads no_fail", {"plate.msh"}, {"plate.nodes.h5"}},
     {"kirsch-solve",
-     "title nodes material cracks loads no_fail solver output",
+     "title nodes material cracks initial loads no_fail solver output",
      {"plate.nodes.h5"},
      {"run.h5", "run/crack.h5", "history.csv"}},
-    {"kirsch-track", "track", {"run.h5", "run/crack.h5"}, {"tips.csv", "summary.csv"}},
+    {"kirsch-track",
+     "track",
+     {"plate.nodes.h5", "run.h5", "run/crack.h5"},
+     {"tips.csv", "branches.csv", "summary.csv"}},
     {"kirsch-plot",
      "title geometry",
      {"run.h5", "run/crack.h5", "tips.csv", "pores.txt"},
      {"pictures/damage.png"}},
 };
-enum { PORES, MESH, NODES, STEPS = sizeof steps / sizeof steps[0] };
+enum { PORES, MESH, NODES, SOLVE, TRACK, STEPS = sizeof steps / sizeof steps[0] };
 
 /* What the steps work on. */
 struct job {
@@ -60,6 +67,7 @@ struct job {
     struct kr_deck *deck;
     char *mesh; /* path of a mesh from elsewhere, or NULL */
     int force;
+    int n_steps; /* to be run, from the first */
 };
 
 /* ---- stamps ---- */
@@ -87,6 +95,19 @@ static uint64_t hash_file(uint64_t hash, const struct kr_case *c, const char *na
     return hash;
 }
 
+/* Files of pre-cracks. */
+static uint64_t hash_cracks(uint64_t hash, const struct job *job) {
+    const struct kr_case_crack *crack = job->c.cracks.item;
+    for (size_t k = 0; k < job->c.cracks.count; k++) {
+        if (!crack[k].file)
+            continue;
+        char *path = kr_deck_beside(job->deck, crack[k].file);
+        hash = hash_path(hash, path);
+        kr_free(path);
+    }
+    return hash;
+}
+
 /* Files that the deck's geometry names. */
 static uint64_t hash_geometry(uint64_t hash, const struct kr_case *c) {
     const struct kr_case_outline *part = c->outline.parts.item;
@@ -105,6 +126,8 @@ static uint64_t stamp_of(const struct job *job, const struct step *step) {
     uint64_t hash = hash_text(hash_text(KR_HASH_BEGIN, kr_version()), sections);
     if (job->mesh && step == &steps[NODES])
         hash = hash_path(hash, job->mesh);
+    if (step == &steps[SOLVE])
+        hash = hash_cracks(hash, job);
     for (int k = 0; k < 4 && step->inputs[k]; k++)
         hash = hash_file(hash, &job->c, step->inputs[k]);
     if (step == &steps[PORES] || step == &steps[MESH])
@@ -144,12 +167,27 @@ static int is_up_to_date(const struct job *job, const struct step *step) {
 }
 
 static void write_stamp(const struct job *job, const struct step *step, const char *suffix) {
-    char *folder = kr_case_file(&job->c, ".steps"), *path = stamp_path(job, step, suffix);
-    if (mkdir(folder, 0777) && errno != EEXIST)
-        kr_stop(KR_EXIT_STORAGE, "%s: cannot be made: %s", folder, strerror(errno));
+    char *path = stamp_path(job, step, suffix);
     FILE *file = fopen(path, "w");
     if (!file || fprintf(file, "%016" PRIx64 "\n", stamp_of(job, step)) < 0 || fclose(file))
         kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", path, strerror(errno));
+    kr_free(path);
+}
+
+/* One kirsch at a time works in a folder. The lock is handed down to the steps, so that it is held
+   until the last of them has ended, also where this program was killed before. */
+static void lock_folder(const struct job *job) {
+    char *folder = kr_case_file(&job->c, ".steps"), *path = kr_case_file(&job->c, ".steps/lock");
+    if (mkdir(folder, 0777) && errno != EEXIST)
+        kr_stop(KR_EXIT_STORAGE, "%s: cannot be made: %s", folder, strerror(errno));
+    int lock = open(path, O_RDWR | O_CREAT, 0666);
+    if (lock < 0)
+        kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", path, strerror(errno));
+    if (flock(lock, LOCK_EX | LOCK_NB) && errno == EWOULDBLOCK) {
+        kr_say("another kirsch is at work in %s: waiting until it has ended", job->c.folder);
+        while (flock(lock, LOCK_EX) && errno == EINTR)
+            ;
+    } /* a file system without locks has none to wait for */
     kr_free(folder);
     kr_free(path);
 }
@@ -205,11 +243,14 @@ static void run_step(const struct job *job, const struct step *step) {
     write_stamp(job, step, ".begun");
     kr_say("%s", step->program);
     signal(SIGINT, SIG_IGN); /* Ctrl-C is the step's business: it may want to leave a checkpoint */
-    pid_t child = fork();
+    pid_t parent = getpid(), child = fork();
     if (child < 0)
         kr_stop(KR_EXIT_LIBRARY, "cannot start %s: %s", program, strerror(errno));
     if (child == 0) {
         signal(SIGINT, SIG_DFL);
+        prctl(PR_SET_PDEATHSIG, SIGTERM); /* killed with this program, a solve leaves a checkpoint */
+        if (getppid() != parent)
+            _exit(127);
         execv(program, (char **)command);
         _exit(127);
     }
@@ -228,9 +269,11 @@ static void run_step(const struct job *job, const struct step *step) {
 
 static void run_steps(const struct job *job) {
     int behind = job->force;
-    for (int k = 0; k < STEPS; k++) {
+    lock_folder(job);
+    for (int k = 0; k < job->n_steps; k++) {
         const struct step *step = &steps[k];
-        if ((k == PORES && !kr_case_has_pores(&job->c)) || (k <= MESH && job->mesh))
+        if ((k == PORES && !kr_case_has_pores(&job->c)) || (k <= MESH && job->mesh) ||
+            (k > TRACK && kr_case_dim(&job->c) == 3)) /* it draws plates */
             continue;
         if (!behind && is_up_to_date(job, step)) {
             kr_say("%s is up to date", step->program);
@@ -281,7 +324,8 @@ static void print_paths(const struct job *job) {
     static const char *const made[] = {
         "pictures/grid.png", "pictures/damage.png",  "pictures/energy.png",
         "pictures/speed.png", "pictures/tip.png", "pictures/history.png", "pictures/crack.mp4",
-        "tips.csv",          "history.csv",          "summary.csv",
+        "tips.csv",          "branches.csv",         "events.csv",
+        "fragments.csv",     "history.csv",          "summary.csv",
         "run.xdmf"};
     for (size_t k = 0; k < sizeof made / sizeof made[0]; k++) {
         char *path = kr_case_file(&job->c, made[k]);
@@ -293,13 +337,25 @@ static void print_paths(const struct job *job) {
 
 /* ---- the beginning ---- */
 
+/* Number of the step behind which to stop. */
+static int steps_until(const char *name) {
+    for (int k = 0; k < STEPS; k++)
+        if (!strcmp(steps[k].program + strlen("kirsch-"), name))
+            return k + 1;
+    kr_stop(KR_EXIT_INPUT,
+            "--until: found '%s', expected pores, mesh, nodes, solve, track or plot", name);
+}
+
 static void take_own_arguments(struct job *job) {
-    for (size_t k = 0; k < job->arguments.n_left; k++) {
-        if (strcmp(job->arguments.left[k], "--force"))
-            kr_stop(KR_EXIT_INPUT, "unknown argument '%s'; see kirsch --help",
-                    job->arguments.left[k]);
-        job->force = 1;
-    }
+    const struct kr_case_arguments *a = &job->arguments;
+    job->n_steps = STEPS;
+    for (size_t k = 0; k < a->n_left; k++)
+        if (!strcmp(a->left[k], "--force"))
+            job->force = 1;
+        else if (!strcmp(a->left[k], "--until"))
+            job->n_steps = steps_until(k + 1 < a->n_left ? a->left[++k] : "");
+        else
+            kr_stop(KR_EXIT_INPUT, "unknown argument '%s'; see kirsch --help", a->left[k]);
 }
 
 /* kirsch-solve knows what follows from the deck, once there are nodes. */
@@ -335,14 +391,13 @@ int main(int argc, char **argv) {
     take_own_arguments(&job);
     job.deck = kr_case_open(&job.arguments, &job.c);
     if (job.c.mesh_file && *job.c.mesh_file)
-        job.mesh = job.c.mesh_file[0] == '/'
-                       ? kr_text_copy(job.c.mesh_file)
-                       : kr_text("%s/%s", kr_deck_folder(job.deck), job.c.mesh_file);
+        job.mesh = kr_deck_beside(job.deck, job.c.mesh_file);
     if (job.arguments.explain) {
         explain(&job);
     } else {
         run_steps(&job);
-        print_summary(&job);
+        if (job.n_steps > TRACK && kr_case_dim(&job.c) == 2)
+            print_summary(&job);
         print_paths(&job);
     }
     kr_deck_close(job.deck);

@@ -155,13 +155,14 @@ static char *fault_of_sets(const struct kr_nodes *nodes) {
     return NULL;
 }
 
-/* Tetrahedra, pyramids, wedges and hexahedra of first and second order. */
+/* Tetrahedra, pyramids, wedges and hexahedra of first and second order; 24 or more: a polyhedron as
+ * so many tetrahedra. */
 static int is_solid(int64_t vertices) {
     static const int64_t known[] = {4, 5, 6, 8, 10, 13, 15, 20};
     for (size_t k = 0; k < sizeof known / sizeof *known; k++)
         if (vertices == known[k])
             return 1;
-    return 0;
+    return vertices >= 24 && vertices % 4 == 0;
 }
 
 static char *fault_of_cells(const struct kr_nodes *nodes) {

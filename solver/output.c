@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "base/provenance.h"
 #include "schedule.h"
+#include "topology.h"
 #include "wave.h"
 #include "xdmf.h"
 
@@ -53,41 +54,11 @@ static void write_attributes(struct kr_h5 *file, const struct kr_case *c,
     kr_h5_set_double(file, "/", "longitudinal_speed", wave.longitudinal);
 }
 
-/* The number in XDMF's mixed topology of a cell with so many vertices, and how many of them to name.
- * Solids are shown by their corners, which come first; nodes in the middle of their edges are not. */
-static int64_t xdmf_of(int dim, int64_t vertices, int64_t *named) {
-    static const struct {
-        int64_t corners, with_middles, number;
-    } solid[] = {{4, 10, 6}, {5, 13, 7}, {6, 15, 8}, {8, 20, 9}};
-    *named = vertices;
-    if (dim == 2)
-        return vertices == 3 ? 4 : vertices == 4 ? 5 : 3;
-    for (size_t k = 0; k < sizeof solid / sizeof *solid; k++)
-        if (vertices == solid[k].corners || vertices == solid[k].with_middles) {
-            *named = solid[k].corners;
-            return solid[k].number;
-        }
-    kr_assert(!"a solid of so many vertices");
-    return 0;
-}
-
-/* XDMF's mixed topology: for each cell its number (4 triangle, 5 quadrilateral, 6 tetrahedron, 7
- * pyramid, 8 wedge, 9 hexahedron, else 3, a polygon, and the number of its corners), then the
- * corners. */
 static void write_mesh(struct kr_output *o, struct kr_h5 *file) {
     const struct kr_nodes *nodes = o->nodes;
     if (!nodes->n_points)
         return;
-    int64_t *topology = KR_NEW(int64_t, nodes->n * 2 + (size_t)nodes->first[nodes->n]);
-    for (size_t i = 0; i < nodes->n; i++) {
-        int64_t corners, from = nodes->first[i];
-        int64_t number = xdmf_of(nodes->dim, nodes->first[i + 1] - from, &corners);
-        topology[o->corners++] = number;
-        if (number == 3)
-            topology[o->corners++] = corners;
-        for (int64_t k = from; k < from + corners; k++)
-            topology[o->corners++] = nodes->vertex[k];
-    }
+    int64_t *topology = kr_topology_make(nodes, &o->corners);
     kr_h5_write_double(file, "/mesh/point", nodes->n_points, (size_t)nodes->dim, nodes->point);
     kr_h5_write_int64(file, "/mesh/topology", o->corners, 0, topology);
     kr_free(topology);

@@ -7,6 +7,8 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "initial.h"
+#include "precrack.h"
 #include "time_step.h"
 #include "wave.h"
 #include "weight.h"
@@ -64,6 +66,23 @@ static void mark_no_fail(const struct kr_case *c, const struct kr_nodes *nodes,
     }
 }
 
+/* Cut all bonds that cross a pre-crack. */
+static void cut_precracks(struct kr_run *run, struct kr_deck *deck) {
+    const struct kr_case *c = run->c;
+    const struct kr_case_crack *from = c->cracks.item;
+    for (size_t k = 0; k < c->cracks.count; k++) {
+        char *path = from[k].file ? kr_deck_beside(deck, from[k].file) : NULL;
+        struct kr_precrack *crack = kr_precrack_create(&from[k], path);
+        size_t cut = kr_precrack_cut(crack, run->bonds, c->count_precrack);
+        if (!cut)
+            kr_warn("%s: the pre-crack crosses no bond; is it where the body is, and longer than a "
+                    "spacing?", kr_deck_where(deck, &from[k]));
+        run->precrack += cut;
+        kr_precrack_free(crack);
+        kr_free(path);
+    }
+}
+
 /* Say what one-sided weights do: the net force of a wave of the plate's size on a body without loads,
  * over the sum of the forces' sizes. Symmetric weights leave 1e-16. */
 static void report_drift(struct kr_body *body, double width) {
@@ -114,9 +133,7 @@ struct kr_run *kr_run_create(struct kr_deck *deck, const struct kr_case *c) {
 
     double begun = kr_progress_clock();
     run->bonds = kr_bonds_create(run->nodes, &material, partial_volume);
-    const struct kr_case_crack *crack = c->cracks.item;
-    for (size_t k = 0; k < c->cracks.count; k++)
-        run->precrack += kr_bonds_cut(run->bonds, crack[k].from, crack[k].to, c->count_precrack);
+    cut_precracks(run, deck);
     mark_no_fail(c, run->nodes, run->bonds);
     run->body = kr_body_create(run->bonds);
     if (c->precision == KR_MIXED)
@@ -134,6 +151,7 @@ struct kr_run *kr_run_create(struct kr_deck *deck, const struct kr_case *c) {
         report_drift(run->body, c->width);
     choose_time_step(run, deck);
     kr_deck_finish(deck);
+    kr_initial_set(c, run->nodes, run->body);
     kr_free(path);
     return run;
 }

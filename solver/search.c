@@ -2,7 +2,7 @@
  *
  * Cell lists. Points are counted into square bins of the reach's width (a counting sort, so each
  * bin holds its points in ascending order); the neighbours of a point lie in its bin and the 8
- * (26 in 3D) around it.
+ * (26 in 3D) around it. Where points are few and far between, bins are wider.
  */
 #include "search.h"
 
@@ -14,7 +14,7 @@
 struct kr_search {
     int dim;
     const double *position;
-    double reach, lower[3];
+    double reach, width, lower[3]; /* width of a bin */
     long bins[3];   /* 1 where there is no such dimension */
     size_t *first;  /* (number of bins + 1) */
     int *member;    /* (n) points by bin */
@@ -23,11 +23,18 @@ struct kr_search {
 static void bin_of(const struct kr_search *s, size_t i, long bin[3]) {
     bin[2] = 0;
     for (int d = 0; d < s->dim; d++)
-        bin[d] = (long)((s->position[i * (size_t)s->dim + (size_t)d] - s->lower[d]) / s->reach);
+        bin[d] = (long)((s->position[i * (size_t)s->dim + (size_t)d] - s->lower[d]) / s->width);
 }
 
 static size_t bin_number(const struct kr_search *s, const long bin[3]) {
     return (size_t)((bin[2] * s->bins[1] + bin[1]) * s->bins[0] + bin[0]);
+}
+
+static double bins_wanted(const struct kr_search *s, const double *upper) {
+    double bins = 1;
+    for (int d = 0; d < s->dim; d++) /* the difference alone may be infinite */
+        bins *= floor(upper[d] / s->width - s->lower[d] / s->width) + 1;
+    return bins;
 }
 
 static void find_bounds(struct kr_search *s, size_t n) {
@@ -41,14 +48,17 @@ static void find_bounds(struct kr_search *s, size_t n) {
             upper[d] = fmax(upper[d], x);
         }
     }
+    const double most = 100 * (double)n + 1000; /* dense points have fewer bins */
+    while (n && bins_wanted(s, upper) > most)
+        s->width *= 2;
     for (int d = 0; d < 3; d++)
-        s->bins[d] = d < s->dim && n ? (long)((upper[d] - s->lower[d]) / s->reach) + 1 : 1;
+        s->bins[d] = d < s->dim && n ? (long)((upper[d] - s->lower[d]) / s->width) + 1 : 1;
 }
 
 struct kr_search *kr_search_create(int dim, size_t n, const double *position, double reach) {
     kr_assert(reach > 0 && (dim == 2 || dim == 3));
     struct kr_search *s = KR_NEW(struct kr_search, 1);
-    *s = (struct kr_search){.dim = dim, .position = position, .reach = reach};
+    *s = (struct kr_search){.dim = dim, .position = position, .reach = reach, .width = reach};
     find_bounds(s, n);
     size_t bins = (size_t)(s->bins[0] * s->bins[1] * s->bins[2]);
     s->first = KR_NEW(size_t, bins + 1);

@@ -8,6 +8,7 @@
 
 #include "case.h"
 #include "nodes.h"
+#include "search.h"
 
 #include <math.h>
 
@@ -52,23 +53,37 @@ struct kr_weights {
     double reach; /* m: no bond is longer */
     double *size; /* (n) m: V^(1/dim) */
     double
-        *radius; /* (n) m: of the circle about the node that holds its cell; exact weights only */
+        *radius; /* (n) m: of the circle (sphere) about the node that holds its cell; exact only */
+    size_t *first_kept; /* (n + 1) of kr_weights_keep; NULL before */
+    int *kept_with;     /* the higher node of each weight kept */
+    float *kept;        /* phi, rounded as bonds.c stores it; NULL: none are kept */
 };
 
-/** The partial volume of a case on these nodes. Exact shares need cells in the plane: where the deck
+/** The partial volume of a case on these nodes. Exact shares need cells: where the deck
  *  leaves the choice open, nodes without get hhb; where it asks for exact ones, that is a fault. */
 int kr_weights_choose(struct kr_deck *deck, const struct kr_case *c, const struct kr_nodes *nodes);
 
-/** Get ready to weigh. Stops (exit 2) where exact weights are asked of nodes without cells, or in
- *  3D. The nodes must outlive the weights. */
+/** Get ready to weigh. Stops (exit 2) where exact weights are asked of nodes without cells. The nodes
+ *  must outlive the weights. */
 struct kr_weights *kr_weights_create(const struct kr_nodes *nodes, double horizon,
                                      int partial_volume);
 void kr_weights_free(struct kr_weights *weights);
 
+/** Find the exact weights that a cell's cut decides once and for all, in parallel, for whoever asks for
+ *  each bond several times: from both ends, in several passes. Pairs of lattice nodes are left out.
+ *
+ *  in  search      made for the reach of the weights
+ *  in  on_lattice  (n) 1 for nodes whose weights among each other are known otherwise
+ *  Keeps nothing where the weights are not exact, or more than 1e8.
+ */
+void kr_weights_keep(struct kr_weights *weights, const struct kr_search *search,
+                     const unsigned char *on_lattice);
+
 /** phi_ij of two nodes at a distance [m], any partial volume; theory.md (10). */
 double kr_weights_phi(const struct kr_weights *weights, size_t i, size_t j, double distance);
 
-/** The share of cell j inside the horizon of node i, from its polygon; theory.md (10a). */
+/** The share of cell j inside the horizon of node i, from its polygon or solid; theory.md
+ *  (10a). */
 double kr_weights_share(const struct kr_weights *weights, size_t i, size_t j);
 
 /** phi of two cells of a square (cubic) lattice, xi [m] apart. */

@@ -44,6 +44,24 @@ static inline void kr_test_sets(struct kr_nodes *nodes, size_t columns, size_t r
     }
 }
 
+/** The same of a full block: `body` and its six sides, with their areas. */
+static inline void kr_test_solid_sets(struct kr_nodes *nodes, size_t columns, size_t rows,
+                                      size_t layers) {
+    static const char *const names[] = {"body", "left", "right", "bottom", "top", "front", "back"};
+    const size_t cells[3] = {columns, rows, layers};
+    for (int s = 0; s < 7; s++) {
+        int64_t *node = KR_NEW(int64_t, nodes->n);
+        size_t count = 0, axis = s ? (size_t)(s - 1) / 2 : 0;
+        for (size_t i = 0; i < nodes->n; i++) {
+            const size_t place[3] = {i % columns, i / columns % rows, i / columns / rows};
+            if (!s || place[axis] == (s % 2 ? 0 : cells[axis] - 1))
+                node[count++] = (int64_t)i;
+        }
+        double area = s ? (double)(nodes->n / cells[axis]) * nodes->spacing * nodes->spacing : 0;
+        kr_nodes_add_set(nodes, names[s], count, node, area);
+    }
+}
+
 static inline void kr_test_write_nodes(struct kr_nodes *nodes, double horizon, const char *folder) {
     char *path = kr_text("%s/plate.nodes.h5", folder);
     nodes->made_for =
@@ -63,8 +81,8 @@ static inline void kr_test_case_open(struct kr_test_case *t, struct kr_nodes *no
     char *path = kr_text("%s/case.yaml", t->folder);
     FILE *file = fopen(path, "w");
     assert_non_null(file);
-    double spacing = nodes->spacing, width = nodes->position[2 * (nodes->n - 1)] + spacing / 2;
-    double height = nodes->position[2 * (nodes->n - 1) + 1] + spacing / 2;
+    const double *last = nodes->position + (size_t)nodes->dim * (nodes->n - 1);
+    double spacing = nodes->spacing, width = last[0] + spacing / 2, height = last[1] + spacing / 2;
     fprintf(file,
             "geometry: {width: %.17g m, height: %.17g m}\nmesh: {grid: uniform, spacing: %.17g m}\n"
             "nodes: {horizon: %.17g m, surface_correction: none}\n%s",

@@ -139,6 +139,43 @@ static inline struct kr_nodes *kr_plate_block(size_t columns, size_t rows, size_
     return nodes;
 }
 
+/** Nodes of hexahedra that leave no gaps: cubes, but in the upper half their corners are moved by up to
+ * `disorder` spacings a component, so that faces are bent. Nodes at the centroids, in rows. */
+static inline struct kr_nodes *kr_plate_bricks(size_t columns, size_t rows, size_t layers,
+                                               double spacing, double disorder, uint64_t seed) {
+    static const size_t up[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                    {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+    struct kr_nodes *nodes = kr_nodes_create(3, columns * rows * layers);
+    size_t across = columns + 1, deep = across * (rows + 1);
+    nodes->spacing = spacing;
+    nodes->n_points = deep * (layers + 1);
+    nodes->point = KR_NEW(double, 3 * nodes->n_points);
+    nodes->first = KR_NEW(int64_t, nodes->n + 1);
+    nodes->vertex = KR_NEW(int64_t, 8 * nodes->n);
+    for (size_t p = 0; p < nodes->n_points; p++) {
+        const size_t place[3] = {p % across, p / across % (rows + 1), p / deep};
+        const size_t most[3] = {columns, rows, layers};
+        for (size_t d = 0; d < 3; d++) {
+            int inside = place[d] > 0 && place[d] < most[d] && 2 * place[2] > layers;
+            double jitter = inside ? disorder * spacing : 0;
+            nodes->point[3 * p + d] =
+                (double)place[d] * spacing + kr_random(&seed, -jitter, jitter);
+        }
+    }
+    for (size_t i = 0; i < nodes->n; i++) {
+        const size_t at[3] = {i % columns, i / columns % rows, i / columns / rows};
+        double point[24];
+        for (size_t k = 0; k < 8; k++) {
+            size_t p = (at[2] + up[k][2]) * deep + (at[1] + up[k][1]) * across + at[0] + up[k][0];
+            nodes->vertex[8 * i + k] = (int64_t)p;
+            memcpy(point + 3 * k, nodes->point + 3 * p, 3 * sizeof *point);
+        }
+        nodes->first[i + 1] = 8 * (int64_t)(i + 1);
+        nodes->volume[i] = kr_cell_solid(8, point, nodes->position + 3 * i);
+    }
+    return nodes;
+}
+
 /** Factors as the surface correction may give, but random. */
 static inline void kr_plate_random_factors(struct kr_nodes *nodes, uint64_t seed) {
     for (size_t i = 0; i < nodes->n; i++)

@@ -71,11 +71,17 @@ void kr_child_start(struct kr_child *child, const char *program, unsigned second
 }
 
 void kr_child_start_words(struct kr_child *child, char *const *word, unsigned seconds) {
-    int file[3] = {fileno(child->in), fileno(child->out), fileno(child->said)};
-    pid_t parent = getpid();
     const char *libraries = getenv("LD_LIBRARY_PATH");
     char *kept = libraries ? kr_text("LD_LIBRARY_PATH=%s", libraries) : NULL;
     char *environment[] = {kept, NULL};
+    kr_child_start_in(child, word, environment, seconds);
+    kr_free(kept);
+}
+
+void kr_child_start_in(struct kr_child *child, char *const *word, char *const *environment,
+                       unsigned seconds) {
+    int file[3] = {fileno(child->in), fileno(child->out), fileno(child->said)};
+    pid_t parent = getpid();
     fflush(NULL);
     rewind(child->in);
     /* dup2 onto itself would keep the close-on-exec mark; files in memory stand above 0, 1, 2
@@ -89,7 +95,6 @@ void kr_child_start_words(struct kr_child *child, char *const *word, unsigned se
         kr_stop(KR_EXIT_LIBRARY, "%s cannot be started: %s", word[0], strerror(errno));
     if (child->pid == 0)
         become(word, environment, file, seconds, parent);
-    kr_free(kept);
 }
 
 pid_t kr_child_wait(int *status) {

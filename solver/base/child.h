@@ -27,6 +27,11 @@ void kr_child_start(struct kr_child *child, const char *program, unsigned second
 /** The same with arguments: `word` is the program, its arguments, NULL. */
 void kr_child_start_words(struct kr_child *child, char *const *word, unsigned seconds);
 
+/** The same in an environment of the caller's choice, "NAME=value" and NULL at the end. With 0
+ *  seconds there is no limit. */
+void kr_child_start_in(struct kr_child *child, char *const *word, char *const *environment,
+                       unsigned seconds);
+
 /** Wait for any child; returns its pid and its status as of waitpid. */
 pid_t kr_child_wait(int *status);
 

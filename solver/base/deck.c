@@ -136,6 +136,10 @@ const char *kr_deck_folder(const struct kr_deck *deck) {
     return deck->folder;
 }
 
+char *kr_deck_beside(const struct kr_deck *deck, const char *file) {
+    return file[0] == '/' ? kr_text_copy(file) : kr_text("%s/%s", deck->folder, file);
+}
+
 const char *kr_deck_path(const struct kr_deck *deck) {
     return deck->path;
 }

@@ -131,6 +131,9 @@ void kr_deck_reference(FILE *file, const struct kr_deck_key *keys);
 /** Folder of the deck file ("." if none is named), owned by the deck. */
 const char *kr_deck_folder(const struct kr_deck *deck);
 
+/** Path of a file that the deck names, seen from its folder; owned by the caller. */
+char *kr_deck_beside(const struct kr_deck *deck, const char *file);
+
 /** Path as it was given to kr_deck_open, owned by the deck. */
 const char *kr_deck_path(const struct kr_deck *deck);
 

@@ -269,6 +269,8 @@ static void read_rows(const struct kr_deck_spot *spot, struct kr_deck_list *list
             read_each(&row, (char *)((double *)list->item + i * columns), sizeof(double));
         else
             kr_deck_mismatch(&row, "");
+        for (size_t k = 0; row.node->count != columns && k < columns; k++)
+            ((double *)list->item)[i * columns + k] = NAN;
         kr_free(path);
     }
 }

@@ -111,7 +111,150 @@ check inp_unknown_type stops 2 "elements of type XYZ4 are not read" convert "$wo
 sed 's/^ 100, 30/ 100, 31/' "$work/hand.inp" >"$work/bad.inp"
 check inp_unknown_node stops 2 "an element has the node 31" convert "$work/bad.inp"
 { printf '*Instance, name=a, part=b\n 1., 0., 0.\n'; cat "$work/hand.inp"; } >"$work/bad.inp"
-check inp_moved_instance stops 2 "*Instance" convert "$work/bad.inp"
+check inp_instance_of_no_part stops 2 "names the part 'B', which is nowhere defined" convert "$work/bad.inp"
+
+# Two instances of a bar of two squares: one as it is, one turned by 90 degrees about z and moved; sets of the
+# part, of the assembly, and surfaces by element set and by element.
+cat >"$work/instances.inp" <<'INP'
+*Part, name=Bar
+*Node
+ 1, 0., 0.
+ 2, 2., 0.
+ 3, 4., 0.
+ 4, 0., 1.
+ 5, 2., 1.
+ 6, 4., 1.
+*Element, type=CPS4, elset=Cells
+ 1, 1, 2, 5, 4
+ 2, 2, 3, 6, 5
+*Nset, nset=End
+ 1, 4
+*Surface, name=Low
+ Cells, S1
+*End Part
+*Assembly, name=A
+*Instance, name=One, part=Bar
+*End Instance
+*Instance, name=Two, part=Bar
+ 6., 1., 0.
+ 6., 1., 0., 6., 1., 1., 90.
+*End Instance
+*Node
+ 1, 50., 50.
+*Nset, nset=Reference
+ 1
+*Nset, nset=Ends, instance=One
+ End,
+*Nset, nset=Ends, instance=Two
+ 3, 6
+*Elset, elset=Firsts
+ One.1, Two.1
+*Elset, elset=Whole
+ One.Cells, Two.Cells
+*Surface, type=ELEMENT, name=Tops
+ One.Cells, S3
+ Two.2, S2
+*End Assembly
+INP
+check inp_instances gives instances.inp 8 One_Cells:2 Two_Cells:2 One_End:1:1 Two_End:1:1 One_Low:2:4 \
+    Two_Low:2:4 Ends:2:2 Firsts:2 Whole:4 Tops:3:5
+instances_stand() {
+    $python - "$work/instances.nodes.h5" <<'PY'
+import sys
+import h5py, numpy as np
+with h5py.File(sys.argv[1]) as f:
+    x = f["nodes/position"][:]
+want = np.array([[1, .5], [3, .5], [5.5, 2], [5.5, 4]])
+assert np.abs(x[np.lexsort(x.T)] - want[np.lexsort(want.T)]).max() < 1e-12, x
+PY
+}
+check inp_instances_stand instances_stand
+sed 's/One.Cells, S3/One.Cells, S7/' "$work/instances.inp" >"$work/bad.inp"
+check inp_face_not_read stops 0 "has the face 'S7', which is not read" convert "$work/bad.inp"
+sed 's/One.Cells, S3/One.Cells, S5/' "$work/instances.inp" >"$work/bad.inp"
+check inp_face_too_high stops 2 "has the face S5 of element 1, a quad" convert "$work/bad.inp"
+# The faces of a hexahedron by their numbers: a box of 1 x 2 x 4.
+{
+    printf '*NODE\n1,0,0,0\n2,1,0,0\n3,1,2,0\n4,0,2,0\n5,0,0,4\n6,1,0,4\n7,1,2,4\n8,0,2,4\n'
+    printf '*ELEMENT, TYPE=C3D8R, ELSET=BOX\n1,1,2,3,4,5,6,7,8\n'
+    for k in 1 2 3 4 5 6; do printf '*SURFACE, NAME=F%s\nBOX, S%s\n' $k $k; done
+} >"$work/faces.inp"
+check inp_faces gives faces.inp 8 BOX:1 F1:1:2 F2:1:2 F3:1:4 F4:1:8 F5:1:4 F6:1:8
+
+# ANSYS: a brick and, in its notation, a wedge, a pyramid and a tetrahedron, in columns that touch; components
+# with a range; blanks and a missing z at the ends of lines.
+cat >"$work/bodies.cdb" <<'CDB'
+/COM,ANSYS RELEASE
+ET,        1,185
+ET,        2,187
+NBLOCK,6,SOLID,        12,        12
+(3i9,6e21.13e3)
+        1        0        0
+        2        0        0 1.0000000000000E+000
+        3        0        0 1.0000000000000E+000 1.0000000000000E+000
+        4        0        0 0.0000000000000E+000 1.0000000000000E+000
+        5        0        0 0.0000000000000E+000 0.0000000000000E+000 1.0000000000000E+000
+        6        0        0 1.0000000000000E+000 0.0000000000000E+000 1.0000000000000E+000
+        7        0        0 1.0000000000000E+000 1.0000000000000E+000 1.0000000000000E+000
+        8        0        0 0.0000000000000E+000 1.0000000000000E+000 1.0000000000000E+000
+       20        0        0 2.0000000000000E+000
+       21        0        0 2.0000000000000E+000 0.0000000000000E+000 1.0000000000000E+000
+123456789        0        0 5.0000000000000E-001 5.0000000000000E-001 2.0000000000000E+000
+       30        0        0 1.0000000000000E+000-1.0000000000000E+000
+N,R5.3,LOC,       -1,
+EBLOCK,19,SOLID,         5,         5
+(19i9)
+        1        1        1        1        0        0        0        0        8        0       11        1        2        3        4        5        6        7        8
+        1        1        1        1        0        0        0        0        8        0       12        2       20        3        3        6       21        7        7
+        2        1        1        1        0        0        0        0        8        0       13        5        6        7        8123456789123456789123456789123456789
+        2        1        1        1        0        0        0        0        8        0       14        2       30       20       20        6        6        6        6
+       -1
+CMBLOCK,FLOOR   ,NODE,       2
+(8i10)
+         1        -4
+CMBLOCK,HEADS   ,ELEM,       3  ! a remark
+(8i10)
+        11       -12        14
+CDB
+sed -i 's/^EBLOCK,19,SOLID,         5,         5/EBLOCK,19,SOLID,        14,         4/' "$work/bodies.cdb"
+# 1 + 1/2 + 1/3 + 1/6.
+check cdb_bodies gives bodies.cdb 2 FLOOR:1:1 HEADS:3 material_1:2 material_2:2
+sed 's/^ET,        1,185/ET,1,200/' "$work/bodies.cdb" >"$work/bad.cdb"
+check cdb_unknown_type stops 2 "element 11 is of ANSYS's type 200 with 8 nodes" convert "$work/bad.cdb"
+sed 's/SOLID,        14/,        14/' "$work/bodies.cdb" >"$work/bad.cdb"
+check cdb_no_solid stops 2 "an EBLOCK is not of the kind SOLID" convert "$work/bad.cdb"
+sed '/^       20  /d' "$work/bodies.cdb" >"$work/bad.cdb"
+check cdb_unknown_node stops 2 "element 12 has the node 20, which NBLOCK does not hold" convert "$work/bad.cdb"
+# In the plane, second order on two lines: an 8-node quadrilateral and a triangle in its notation.
+cat >"$work/plane.cdb" <<'CDB'
+ET,1,PLANE183
+ET,1,183
+NBLOCK,6,SOLID
+(3i8,6e16.9)
+       1       0       0 0.000000000E+00
+       2       0       0 2.000000000E+00
+       3       0       0 2.000000000E+00 2.000000000E+00
+       4       0       0 0.000000000E+00 2.000000000E+00
+       5       0       0 1.000000000E+00
+       6       0       0 2.000000000E+00 1.000000000E+00
+       7       0       0 1.000000000E+00 2.000000000E+00
+       8       0       0 0.000000000E+00 1.000000000E+00
+       9       0       0 4.000000000E+00
+      10       0       0 3.000000000E+00
+      11       0       0 3.000000000E+00 1.000000000E+00
+N,R5.3,LOC,       -1,
+EBLOCK,10,SOLID
+(15i8)
+       1       1       1       1       0       0       0       0       8       0       1       1       2       3       4
+       5       6       7       8
+       1       1       1       1       0       0       0       0       8       0       2       2       9       3       3
+      10      11       3       6
+      -1
+CMBLOCK,RIGHT,ELEM,1
+(8i10)
+         2
+CDB
+check cdb_plane gives plane.cdb 6 RIGHT:1
 
 # What meshio writes, and an Exodus file with side sets and named blocks by netCDF4.
 $python - "$work" <<'PY' >"$work/log" 2>&1
@@ -218,6 +361,13 @@ round_trip() {
     gives again.csv 2 body:48 all:48 hex:24 floor:24 block_1:48
 }
 check csv_round_trip round_trip
+# Points with volumes in Exodus, as Peridigm keeps them: what we write, we read.
+spheres() {
+    convert "$work/b_msh41.msh" --write exodus || return 1
+    cp "$work/b_msh41.e" "$work/spheres.e"
+    gives spheres.e 2 body:48 all:48 hex:24 floor:24 block_1:48
+}
+check exodus_spheres spheres
 check unit sh -c "'$build/kirsch-nodes' --convert '$work/p_msh41.msh' --output '$work' --unit mm | grep -q 'area 2 mm^2'"
 
 # Faults.
@@ -244,7 +394,7 @@ cut_files() { # file
         fi
     done
 }
-for file in p_unv.unv plate_m.vtu hexes.e plate_m.med p_inp.inp; do
+for file in p_unv.unv plate_m.vtu hexes.e plate_m.med p_inp.inp bodies.cdb; do
     check cut_${file##*.} cut_files $file
 done
 echo "1..$count"

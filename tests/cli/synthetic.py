@@ -143,6 +143,13 @@ def write_nodes(path, point, first, vertex, area, position, h):
                        deformation="uniaxial-y")
         f["/nodes/position"], f["/nodes/volume"] = position, area
         f["/nodes/surface_factor"] = np.ones(len(area))
+        off = np.hypot(*(position - HOLE).T)
+        rims = {"hole_1": np.flatnonzero(off < RADIUS + 0.7 * h),
+                "left": np.flatnonzero(position[:, 0] < 0.6 * h),
+                "right": np.flatnonzero(position[:, 0] > WIDTH - 0.6 * h)}
+        for name, nodes in rims.items():
+            f["/sets/" + name] = nodes.astype(np.int64)
+            f["/sets/" + name].attrs["measure"] = len(nodes) * h
         f["/nodes/tag"] = np.arange(len(area), dtype=np.int64)
         f["/cells/point"], f["/cells/first"], f["/cells/vertex"] = point, first, vertex
 
@@ -155,9 +162,14 @@ def write_run(path, area, position, h, steps, end):
         f.attrs.update(format="kirsch run", version=1, dim=2, program="synthetic", machine="",
                        deck="", deck_hash="", nodes_file="plate.nodes.h5", n=len(area),
                        time_step=TIME_STEP, horizon=horizon, spacing=h,
-                       damage_threshold=0.35, rayleigh_speed=RAYLEIGH, bonds=24 * len(area))
+                       damage_threshold=0.35, fracture_energy=200.0, density=1190.0, poissons_ratio=1 / 3,
+                       rayleigh_speed=RAYLEIGH, bonds=24 * len(area))
         f["/nodes/position"], f["/nodes/volume"] = position, area
         f["/crack/Damage_Time"], f["/crack/bond_time"] = times, broken
+        order = np.argsort(times, kind="stable")
+        first = order[(times[order] > 0) & (times[order] < np.inf)]
+        f["/crack/bond"] = np.stack([first, (first + 1) % len(area)], axis=1).astype(np.int32)
+        f["/crack/bond_energy"] = np.full(len(broken), 200.0 * h / 2)
         f["/crack"].attrs.update(steps=last, finished=1, external_work=4.0, kinetic_energy=1.0,
                                  strain_energy=2.5, fracture_work=0.49)
         for k in np.unique(np.linspace(0, last, steps + 1).astype(int)):

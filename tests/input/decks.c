@@ -190,7 +190,7 @@ static const struct row {
      "  sets:\n    top: {within: 0.3 mm, of: top}\n    bottom: {within: 0.3 mm, of: bottom}",
      "  sets: [top, bottom]", NULL, NULL,
      "case.yaml:13:10: nodes.sets: found a list of 2, expected names, each with within, of, lower, "
-     "upper\n"
+     "upper, centre, radius, through, normal, points, union, intersection, difference, not\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_text_as_a_section", "title: a plate", "title: {a: plate}", NULL, NULL,
      "case.yaml:1:9: title: found a section, expected a text\n"
@@ -253,7 +253,9 @@ static const struct row {
      "{lower: [0 mm, 0 mm, 0 mm], upper: [1 mm, 1 mm, 1 mm]}", NULL, NULL,
      "case.yaml:14:19: nodes.sets.top.lower: found 3 components, expected 2: the model is a plate; "
      "material.model: solid has three\n"
-     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+     "case.yaml:14:46: nodes.sets.top.upper: found 3 components, expected 2: the model is a plate; "
+     "material.model: solid has three\n"
+     "kirsch: 2 faults in case.yaml; nothing was done\n"},
     {"deck_load_of_two_kinds", "traction: [free, 6 MPa]",
      "traction: [free, 6 MPa], velocity: [free, 3 m/s]", NULL, NULL,
      "case.yaml:24:27: loads.0.traction: a load has just one of displacement, velocity, traction "
@@ -275,8 +277,20 @@ static const struct row {
      "case.yaml:14:11: nodes.sets.top: both a boundary (within, of) and a box (lower, upper); a "
      "set is one of them\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_set_of_a_polygon_of_two", "{within: 0.3 mm, of: top}",
+     "{points: [[0 mm, 0 mm], [1 mm, 1 mm]]}", NULL, NULL,
+     "case.yaml:14:21: nodes.sets.top.points: found 2 corners, expected 3 or more\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_set_of_no_direction", "{within: 0.3 mm, of: top}",
+     "{through: [0 mm, 0 mm], normal: [0, 0]}", NULL, NULL,
+     "case.yaml:14:43: nodes.sets.top.normal: all components are 0; expected a direction\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_uniaxial_z_of_a_plate", "  sets:", "  surface_deformation: uniaxial-z\n  sets:", NULL, NULL,
+     "case.yaml:13:24: nodes.surface_deformation: uniaxial-z is for bodies in 3D; a plate has x and y\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_set_of_no_kind", "{within: 0.3 mm, of: top}", "{}", NULL, NULL,
-     "case.yaml:14:5: nodes.sets.top: empty; expected 'within' and 'of', or 'lower' and 'upper'\n"
+     "case.yaml:14:5: nodes.sets.top: empty; expected 'within' and 'of', 'lower' and 'upper', 'centre' "
+     "and 'radius', 'through' and 'normal', 'points', 'union', 'intersection', 'difference' or 'not'\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_set_half_given", "{within: 0.3 mm, of: top}", "{within: 0.3 mm}", NULL, NULL,
      "case.yaml:14:11: nodes.sets.top: 'within' goes with 'of', which is missing\n"
@@ -311,6 +325,24 @@ static const struct row {
     {"deck_hole_larger_than_the_plate", "radius: 2 mm", "radius: 26 mm", NULL, NULL,
      "case.yaml:6:42: geometry.holes.0.radius: the hole's diameter of 0.052 m is more than the "
      "plate's longer side\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_voids_without_depth", "  height: 25 mm\n",
+     "  height: 25 mm\n  voids: [{centre: [5 mm, 5 mm, 1 mm], radius: 1 mm}]\n", NULL, NULL,
+     "case.yaml:5:12: geometry.voids: voids need a solid; expected geometry.depth: 10 mm\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_depth_of_no_layers", "  height: 25 mm\n", "  height: 25 mm\n  depth: 1.04 mm\n", NULL, NULL,
+     "case.yaml:5:10: geometry.depth: 0.00104 m is no whole number of spacings of 0.0001 m; the "
+     "nearest that is: 0.001 m\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_void_of_another_shape", "  height: 25 mm\n",
+     "  height: 25 mm\n  depth: 2 mm\n  voids: [{shape: cylinder, centre: [5 mm, 5 mm, 1 mm], radius: 1 mm}]\n",
+     NULL, NULL,
+     "case.yaml:6:12: geometry.voids.0.length: missing; expected length: 4 mm for shape cylinder\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_void_outside", "  height: 25 mm\n",
+     "  height: 25 mm\n  depth: 2 mm\n  voids: [{centre: [5 mm, 5 mm, 4 mm], radius: 1 mm}]\n", NULL, NULL,
+     "case.yaml:6:21: geometry.voids.0.centre: the void lies outside the body of 0.05 m x 0.025 m x "
+     "0.002 m, 0.001 m from it\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_pores_by_two_words", "count: 3,", "count: 3, porosity: 0.1,", NULL, NULL,
      "case.yaml:7:31: geometry.pores.porosity: pores are given by just one of count, porosity and "
@@ -370,6 +402,33 @@ static const struct row {
     {"deck_precrack_outside_the_plate", "to: [3 mm, 12 mm]", "to: [-3 mm, 12 mm]", NULL, NULL,
      "case.yaml:22:23: cracks.precracks.0.from: the crack lies outside the plate of 0.05 m x 0.025 "
      "m\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_initial_field_left_free", "no_fail: [top]",
+     "no_fail: [top]\ninitial: {velocity: [free, 3 m/s, 0 m/s]}", NULL, NULL,
+     "case.yaml:27:22: initial.velocity: found 3 components, expected 2: the model is a plate; "
+     "material.model: solid has three\n"
+     "case.yaml:27:22: initial.velocity: found 'free', expected an expression or 0; nothing is free at "
+     "time 0\n"
+     "kirsch: 2 faults in case.yaml; nothing was done\n"},
+    {"deck_precrack_half_given", ", to: [3 mm, 12 mm]", "", NULL, NULL,
+     "case.yaml:22:16: cracks.precracks.0.to: missing; expected to: [2 mm, 5 mm]\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_precrack_of_two_kinds", "to: [3 mm, 12 mm]",
+     "to: [3 mm, 12 mm], points: [[1 mm, 1 mm], [2 mm, 2 mm]]", NULL, NULL,
+     "case.yaml:22:66: cracks.precracks.0.points: points beside from and to; make it a crack of its "
+     "own\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_precrack_of_one_point", "from: [0 mm, 12 mm], to: [3 mm, 12 mm]",
+     "points: [[1 mm, 1 mm]]", NULL, NULL,
+     "case.yaml:22:26: cracks.precracks.0.points: found 1 corners, expected two or more\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_precrack_of_a_solid_in_a_plate", "from: [0 mm, 12 mm], to: [3 mm, 12 mm]",
+     "disc: {centre: [1 mm, 1 mm, 1 mm], normal: [0, 0, 1], radius: 1 mm}", NULL, NULL,
+     "case.yaml:22:32: cracks.precracks.0.disc.centre: a surface cuts a solid, and the model is a "
+     "plate; take from and to, or points\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_precrack_of_no_kind", "{from: [0 mm, 12 mm], to: [3 mm, 12 mm]}", "{}", NULL, NULL,
+     "cracks.precracks.0.from: empty; expected from and to, points, polygon, disc or file\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_time_step_above_end_time", "end_time: 50 us", "end_time: 50 us, time_step: 1 ms", NULL,
      NULL,
@@ -437,7 +496,7 @@ static const struct row {
     {"deck_fault_that_would_spread_over_lines", "title: a plate",
      "title: a plate\n\"two\\nlines\": 3", NULL, NULL,
      "case.yaml:2:1: two lines: unknown key; known here: title, preset, no_fail, geometry, mesh, "
-     "nodes, material, cracks, loads, solver, output, track\n"
+     "nodes, material, cracks, initial, loads, solver, output, track\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_no_yaml", "mesh:", "mesh: {", NULL, NULL,
      "kirsch: case.yaml:10:10: not a YAML file: missing comma in flow mapping\n"},
@@ -475,6 +534,43 @@ static void check_row(void **state) {
     write_deck(row->find, row->replace);
     kr_check_stops(open_row, row, KR_EXIT_INPUT, row->said);
     assert_int_equal(kr_memory_outstanding(), 0);
+}
+
+/* ---- solids ---- */
+
+/* Pre-cracks of a solid: what each row puts in the place of X, and the only fault. */
+static void solid_faults_of_precracks_are_named(void **state) {
+    static const struct row wrong[] = {
+        {"", "polygon: [[0 mm, 0 mm, 0 mm], [1 mm, 0 mm, 0 mm]]", "", NULL, NULL,
+         "cracks.precracks.0.polygon: found 2 corners, expected three or more\n"},
+        {"", "polygon: [[0 mm, 0 mm], [1 mm, 0 mm, 0 mm], [1 mm, 1 mm, 0 mm]]", "", NULL, NULL,
+         "cracks.precracks.0.polygon.0: found a list of 2, expected a list of lists of 3, each a length "
+         "in mm\n"},
+        {"", "polygon: [[0 mm, 0 mm, 0 mm], [1 mm, 1 mm, 1 mm], [2 mm, 2 mm, 2 mm]]", "", NULL, NULL,
+         "cracks.precracks.0.polygon: the polygon has no area\n"},
+        {"", "polygon: [[0 mm, 0 mm, 0 mm], [1 mm, 0 mm, 0 mm], [1 mm, 1 mm, 0 mm], [0 mm, 1 mm, 1 mm]]",
+         "", NULL, NULL, "off the plane of the polygon; a bent surface comes from a file\n"},
+        {"", "disc: {centre: [1 mm, 1 mm, 1 mm], normal: [0, 0, 0], radius: 1 mm}", "", NULL, NULL,
+         "cracks.precracks.0.disc.normal: the normal has no length; expected one such as [0, 0, 1]\n"},
+        {"", "disc: {centre: [1 mm, 1 mm, 1 mm], radius: 1 mm}", "", NULL, NULL,
+         "cracks.precracks.0.disc.normal: missing; expected normal: [0, 0, 1]\n"},
+        {"", "file: crack.stl", "", NULL, NULL,
+         "cracks.precracks.0.unit: missing; expected unit: 1 mm, what 1 in the file stands for\n"},
+        {"", "from: [0 mm, 0 mm], to: [1 mm, 1 mm]", "", NULL, NULL,
+         "cracks.precracks.0.to: a line cuts a plate, and the model is solid; take polygon, disc or "
+         "file\n"},
+    };
+    (void)state;
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        char said[512], text[512];
+        struct row row = {.set = text, .said = said};
+        snprintf(text, sizeof text, "cracks.precracks=[{%s}]", wrong[k].find);
+        snprintf(said, sizeof said, "%skirsch: 3 faults in case.yaml; nothing was done\n",
+                 wrong[k].said);
+        /* The two loads of the plate's deck have two components: two faults beside the one. */
+        write_deck("model: plane-stress", "model: solid");
+        kr_check_stops(open_row, &row, KR_EXIT_INPUT, said);
+    }
 }
 
 /* ---- what is right ---- */
@@ -667,7 +763,8 @@ static void arguments_help_and_stop(void **state) {
 }
 
 int main(void) {
-    struct CMUnitTest tests[ROWS + 8] = {
+    struct CMUnitTest tests[ROWS + 9] = {
+        cmocka_unit_test(solid_faults_of_precracks_are_named),
         cmocka_unit_test(case_is_read_in_si),
         cmocka_unit_test(case_check_says_so_and_makes_nothing),
         cmocka_unit_test(case_makes_its_folder_with_parents),
@@ -679,7 +776,7 @@ int main(void) {
     };
     char folder[] = "/tmp/kirsch-decks-XXXXXX", filter[256];
     for (size_t i = 0; i < ROWS; i++)
-        tests[8 + i] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, (void *)&rows[i]};
+        tests[9 + i] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, (void *)&rows[i]};
     if (!mkdtemp(folder) || chdir(folder))
         return 1;
     snprintf(filter, sizeof filter, "*%s*", getenv("ONLY") ? getenv("ONLY") : "");

@@ -6,6 +6,7 @@
 #include "test.h"
 
 #include "plates.h"
+#include "precrack.h"
 #include "weight.h"
 
 enum { COLUMNS = 41, ROWS = 34 };
@@ -127,7 +128,7 @@ static void check_damage(struct plate *p, int count) {
 
 static void check_cut(int count) {
     struct plate p = plate_make(KR_PARTIAL_VOLUME_HHB);
-    size_t n = p.nodes->n, cut = 0, said = kr_bonds_cut(p.bonds, FROM, TO, count);
+    size_t n = p.nodes->n, cut = 0, said = kr_precrack_cut_line(p.bonds, FROM, TO, count);
     look(&p);
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < n; j++) {

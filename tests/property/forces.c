@@ -10,6 +10,7 @@
 
 #include "base/memory.h"
 #include "plates.h"
+#include "precrack.h"
 
 static const double SPACING = 0.1e-3, HORIZON = 0.37e-3;
 
@@ -43,7 +44,7 @@ static struct subject plate(const struct kr_law *law, int corrected) {
     else
         kr_plate_random_factors(nodes, 7);
     struct subject s = finish(corrected ? "corrected plate" : "plate", nodes, &material);
-    kr_bonds_cut(s.bonds, from, to, 1);
+    kr_precrack_cut_line(s.bonds, from, to, 1);
     return s;
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "plates.h"
+#include "precrack.h"
 
 static const char *const builds[] = {"baseline", "avx2", "avx512"};
 static const double SPACING = 0.1e-3;
@@ -104,7 +105,7 @@ static void check_build(const char *build, const struct kr_law *law, int dim, in
     struct kr_body *body = kr_body_create(bonds);
     assert_string_equal(body->kernel->name, build);
     if (dim == 2)
-        kr_bonds_cut(bonds, from, to, 1);
+        kr_precrack_cut_line(bonds, from, to, 1);
     kr_plate_shake(body, 1e-3 * SPACING, 4);
     for (int d = 0; d < dim; d++) /* some direction for the product */
         for (size_t i = 0; i < body->n; i++)

@@ -42,7 +42,7 @@ static void check_energy(const struct kr_law *law, int model, int deformation) {
     struct kr_bonds *bonds = kr_bonds_create(nodes, &material, KR_PARTIAL_VOLUME_HHB);
     struct kr_body *body = kr_body_create(bonds);
     double *energy = KR_NEW(double, nodes->n), worst = 0;
-    double reference = kr_surface_reference(&material, KR_PARTIAL_VOLUME_HHB, deformation);
+    double reference = kr_surface_reference(&material, 2, KR_PARTIAL_VOLUME_HHB, deformation);
     char name[32];
     add_deformation(body, deformation, energy);
     for (size_t i = 0; i < nodes->n; i++)
@@ -102,7 +102,7 @@ static void test_surface_factors_fade_into_the_bulk(void **state) {
     struct kr_body *body = kr_body_create(bonds);
     double *energy = KR_NEW(double, nodes->n);
     add_deformation(body, KR_UNIAXIAL_Y, energy);
-    double reference = kr_surface_reference(&material, KR_PARTIAL_VOLUME_HHB, KR_UNIAXIAL_Y);
+    double reference = kr_surface_reference(&material, 2, KR_PARTIAL_VOLUME_HHB, KR_UNIAXIAL_Y);
     kr_check_near(bulk, reference / energy[kr_plate_middle(SIDE, SIDE)], 1e-7);
     kr_free(energy);
     kr_body_free(body);

@@ -326,7 +326,7 @@ static void family_sums(const struct plate *p, size_t i, double *volume, double 
 
 /* Each seventh node's own equation: lambda V_i = V0, lambda_d S_d = S0. */
 static double off_equation(const struct plate *p, int correction, int partial_volume) {
-    double full = kr_surface_full_pull(&p->material, partial_volume), worst = 0;
+    double full = kr_surface_full_pull(&p->material, 2, partial_volume), worst = 0;
     for (size_t i = 0; i < p->nodes->n; i += 7) {
         double volume, pull[2];
         family_sums(p, i, &volume, pull);
@@ -343,7 +343,7 @@ static double off_equation(const struct plate *p, int correction, int partial_vo
 
 /* The energy's equation, W_i = W0 under the strain it was made for; the iteration ends at 1e-7. */
 static double off_energy(const struct plate *p, int partial_volume) {
-    double full = kr_surface_reference(&p->material, partial_volume, KR_ISOTROPIC), worst = 0;
+    double full = kr_surface_reference(&p->material, 2, partial_volume, KR_ISOTROPIC), worst = 0;
     for (int d = 0; d < 2; d++)
         for (size_t i = 0; i < p->nodes->n; i++)
             p->body->u[d][i] = 1e-4 * p->bonds->x[d][i];
@@ -379,7 +379,7 @@ static void test_full_pull_is_the_integral(void **state) {
     double classical = m.micromodulus * 1e-4 * (8.0 / 3) * HORIZON * HORIZON / 2;
     (void)state;
     /* dx = delta/25 leaves a fraction of a percent; strain 1e-4 as much of itself. */
-    kr_check_near(kr_surface_full_pull(&m, KR_PARTIAL_VOLUME_EXACT) / classical, 1, 2e-3);
+    kr_check_near(kr_surface_full_pull(&m, 2, KR_PARTIAL_VOLUME_EXACT) / classical, 1, 2e-3);
 }
 
 /* ---- what cannot be ---- */

@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tip, speed and branches of cracks drawn by hand on a lattice: 40 mm x 20 mm, spacing 0.1 mm,
+ * Tip and speed in boxes, of cracks drawn by hand on a lattice: 40 mm x 20 mm, spacing 0.1 mm,
  * horizon 0.4 mm, steps of 0.02 us, a pre-crack of 2 mm at mid height.
  */
 #include "test.h"
 
 #include "base/error.h"
 #include "base/h5.h"
-#include "branches.h"
-#include "near.h"
 #include "track.h"
 
 enum { COLUMNS = 400, ROWS = 200, WINDOW = 30 };
@@ -19,17 +17,20 @@ static struct kr_record *plate(double hole_x, double hole_y, double radius) {
     struct kr_record *r = KR_NEW(struct kr_record, 1);
     r->position = KR_NEW(double, 2 * COLUMNS * ROWS);
     r->damage_time = KR_NEW(double, COLUMNS *ROWS);
+    r->volume = KR_NEW(double, COLUMNS *ROWS);
     for (int k = 0; k < COLUMNS * ROWS; k++) {
         double x = (k % COLUMNS + 0.5) * spacing, y = (k / COLUMNS + 0.5) * spacing;
         if (hypot(x - hole_x, y - hole_y) < radius)
             continue;
         r->position[2 * r->n] = x;
         r->position[2 * r->n + 1] = y;
+        r->volume[r->n] = spacing * spacing;
         r->damage_time[r->n++] = INFINITY;
     }
     r->time_step = step;
     r->steps = 5000;
     r->spacing = spacing;
+    r->dim = 2;
     r->horizon = 4 * spacing;
     r->rayleigh_speed = 929;
     r->first_break = INFINITY;
@@ -198,9 +199,6 @@ static void test_no_damage(void **state) {
     assert_int_equal(track.count, 0);
     assert_int_equal(track.arrival, -1);
     assert_true(isnan(track.mean_speed) && isnan(track.top_speed));
-    assert_int_equal(kr_branches_count(r).branches, 0);
-    assert_int_equal(kr_branches_count(r).cracks, 0);
-    assert_true(kr_branches_count(r).countable);
     finish(r, &track);
 }
 
@@ -211,7 +209,6 @@ static void test_precrack_that_never_grew(void **state) {
     assert_int_equal(track.count, 1);
     assert_true(isnan(track.mean_speed) && isnan(track.top_speed));
     kr_check_near(r->position[2 * track.tip[0].node], notch[0], spacing);
-    assert_int_equal(kr_branches_count(r).branches, 0);
     finish(r, &track);
 }
 
@@ -225,9 +222,6 @@ static void test_everything_at_once(void **state) {
     track = follow(r);
     assert_int_equal(track.count, 1);
     assert_true(isnan(track.mean_speed));
-    assert_false(kr_branches_count(r).countable);
-    assert_int_equal(kr_branches_count(r).branches, 0);
-    assert_int_equal(kr_branches_count(r).damaged, r->n);
     finish(r, &track);
 }
 
@@ -248,126 +242,25 @@ static void test_hole_is_jumped(void **state) {
     assert_int_equal(jumps, 1);
     kr_check_near(track.top_speed, 500, spacing / (WINDOW * step));
     kr_check_near(track.mean_speed, 38e-3 / (16.45e-3 / 500 + 6e-6 + 18.45e-3 / 500), 3);
-    assert_int_equal(kr_branches_count(r).branches, 1);
-    assert_int_equal(kr_branches_count(r).cracks, 1);
     finish(r, &track);
 }
 
-/* ---- branches ------------------------------------------------------------------------------ */
-
-static void check_branches(struct kr_record *r, size_t branches, size_t cracks) {
-    struct kr_branches got = kr_branches_count(r);
-    assert_int_equal(got.branches, branches);
-    assert_int_equal(got.cracks, cracks);
-    kr_record_free(r);
-    assert_int_equal(kr_memory_outstanding(), 0);
-}
-
-static void test_one_crack_is_one_branch(void **state) {
-    const double bent[2] = {15e-3, 14e-3}, end[2] = {38e-3, 3.3e-3};
-    struct kr_record *r = notched();
-    (void)state;
-    crack(r, notch, bent, 1e-6, 500, 0);
-    crack(r, bent, end, 40e-6, 500, 0);
-    check_branches(r, 1, 1);
-}
-
-static void test_bifurcations(void **state) {
-    const double fork[2] = {10e-3, 10e-3}, up[2] = {25e-3, 14e-3}, down[2] = {38e-3, 3e-3};
-    const double upper[2] = {38e-3, 19e-3}, lower[2] = {38e-3, 11e-3};
-    struct kr_record *r = notched();
-    (void)state;
-    crack(r, notch, fork, 1e-6, 500, 0);
-    crack(r, fork, up, 17e-6, 500, 0);
-    crack(r, fork, down, 17e-6, 500, 0);
-    assert_int_equal(kr_branches_count(r).branches, 2);
-    crack(r, up, upper, 49e-6, 500, 0);
-    crack(r, up, lower, 49e-6, 500, 0);
-    check_branches(r, 3, 1);
-}
-
-/** A pre-crack in the middle grows both ways: two ends of one crack. */
-static void test_crack_in_the_middle(void **state) {
-    const double a[2] = {18e-3, 10e-3}, b[2] = {22e-3, 10e-3};
-    struct kr_record *r = plate(-1, 0, 0);
-    (void)state;
-    crack(r, a, b, 0, 0, 0);
-    crack(r, a, left, 1e-6, 300, 0);
-    crack(r, b, right, 1e-6, 300, 0);
-    check_branches(r, 2, 1);
-}
-
-static void test_specks_and_twigs_do_not_count(void **state) {
-    struct kr_record *r = notched();
-    (void)state;
-    crack(r, notch, right, 1e-6, 500, 0);
-    for (size_t k = 0; k < 25; k++) { /* specks of one to four nodes, far from the crack */
-        size_t i = 37 + 3163 * k;
-        if (fabs(r->position[2 * i + 1] - 10e-3) > 1e-3)
-            for (size_t j = 0; j <= k % 4; j++)
-                r->damage_time[i + j] = 10e-6 + 1e-6 * (double)k;
-    }
-    for (int k = 1; k < 12; k++) { /* twigs of 0.8 mm, below 3 horizons = 1.2 mm */
-        double foot[2] = {3e-3 * k + 1e-3, 10e-3};
-        double top[2] = {foot[0] + 0.5e-3, 10e-3 + (k % 2 ? 0.65e-3 : -0.65e-3)};
-        crack(r, foot, top, 20e-6, 500, 0);
-    }
-    check_branches(r, 1, 1);
-}
-
-/** Out of one hole come two cracks: two branches of one crack. */
-static void test_two_cracks_leave_a_hole(void **state) {
-    const double rim[2] = {18.45e-3, 10e-3};
-    const double above[2] = {21e-3, 11.25e-3}, below[2] = {21e-3, 8.75e-3};
-    const double upper[2] = {38e-3, 18e-3}, lower[2] = {38e-3, 2e-3};
-    struct kr_record *r = plate(20e-3, 10e-3, 1.5e-3);
-    (void)state;
-    crack(r, left, notch, 0, 0, 0);
-    crack(r, notch, rim, 10e-6, 500, 0);
-    crack(r, above, upper, 50e-6, 500, 0);
-    crack(r, below, lower, 51e-6, 500, 0);
-    check_branches(r, 2, 1);
-}
-
-/** A crack of its own, with material between, counts as a crack and as a branch. */
-static void test_cracks_apart(void **state) {
-    const double a[2] = {15e-3, 4e-3}, b[2] = {35e-3, 4e-3}, end[2] = {30e-3, 10e-3};
-    struct kr_record *r = notched();
-    (void)state;
-    crack(r, notch, end, 1e-6, 500, 0);
-    crack(r, a, b, 90e-6, 500, 0); /* later than the other's end */
-    check_branches(r, 2, 2);
-}
-
-/** Branches that go round an island and meet again are one. */
-static void test_branches_that_meet_again(void **state) {
-    const double fork[2] = {10e-3, 10e-3}, meet[2] = {25e-3, 10e-3};
-    const double up[2] = {17e-3, 13e-3}, down[2] = {17e-3, 7e-3};
-    struct kr_record *r = notched();
-    (void)state;
-    crack(r, notch, fork, 1e-6, 500, 0);
-    crack(r, fork, up, 17e-6, 500, 0);
-    crack(r, fork, down, 17e-6, 500, 0);
-    crack(r, up, meet, 33e-6, 500, 0);
-    crack(r, down, meet, 33e-6, 500, 0);
-    assert_int_equal(kr_branches_count(r).branches, 0); /* a closed loop has no end */
-    crack(r, meet, right, 55e-6, 500, 0);
-    check_branches(r, 1, 1);
-}
-
-/* ---- files and neighbours ------------------------------------------------------------------ */
+/* ---- files ------------- ------------------------------------------------------------------ */
 
 static char path[] = "/tmp/kirsch-track-XXXXXX";
 
 /** Write what kr_record_read reads, with one fault of choice. */
 static void write_record(const struct kr_record *r, const char *fault) {
     struct kr_h5 *file = kr_h5_create(path, "kirsch run", 1);
-    double time[2] = {r->first_break, r->first_break + step};
-    kr_h5_set_int64(file, "/", "dim", strcmp(fault, "dim") ? 2 : 3);
+    double time[2] = {r->first_break, r->first_break + step}, energy[2] = {1e-6, 2e-6};
+    int32_t bond[4] = {0, 1, 5, strcmp(fault, "bond") ? 6 : (int32_t)r->n};
+    kr_h5_set_int64(file, "/", "dim", strcmp(fault, "dim") ? 2 : 4);
     kr_h5_set_double(file, "/", "time_step", strcmp(fault, "time_step") ? r->time_step : 0);
     kr_h5_set_double(file, "/", "horizon", r->horizon);
     kr_h5_set_double(file, "/", "spacing", r->spacing);
     kr_h5_set_double(file, "/", "rayleigh_speed", r->rayleigh_speed);
+    kr_h5_set_double(file, "/", "fracture_energy", 200);
+    kr_h5_set_double(file, "/", "density", 1190);
     kr_h5_set_int64(file, "/", "bonds", 77);
     kr_h5_group(file, "/crack");
     kr_h5_set_int64(file, "/crack", "steps", r->steps);
@@ -381,7 +274,10 @@ static void write_record(const struct kr_record *r, const char *fault) {
         r->damage_time[5] = NAN;
     if (strcmp(fault, "missing") != 0)
         kr_h5_write_double(file, "/crack/Damage_Time", r->n, 0, r->damage_time);
+    kr_h5_write_double(file, "/nodes/volume", r->n, 0, r->volume);
     kr_h5_write_double(file, "/crack/bond_time", 2, 0, time);
+    kr_h5_write_double(file, "/crack/bond_energy", 2, 0, energy);
+    kr_h5_write_int32(file, "/crack/bond", 2, 2, bond);
     kr_h5_close(file);
 }
 
@@ -406,40 +302,18 @@ static void test_reads_a_run(void **state) {
     assert_true(got->finished && got->first_break == r->first_break);
     kr_record_free(got);
     write_record(r, "dim");
-    kr_check_stops(read_record, NULL, KR_EXIT_INPUT, "has 3 dimensions");
+    kr_check_stops(read_record, NULL, KR_EXIT_INPUT, "`dim` is 4");
     write_record(r, "time_step");
     kr_check_stops(read_record, NULL, KR_EXIT_INPUT, "`time_step` is 0");
     write_record(r, "missing");
     kr_check_stops(read_record, NULL, KR_EXIT_INPUT, "/crack/Damage_Time: there is no such array");
     write_record(r, "nan");
     kr_check_stops(read_record, NULL, KR_EXIT_INPUT, "node 5 at");
+    r->damage_time[5] = INFINITY;
+    write_record(r, "bond");
+    kr_check_stops(read_record, NULL, KR_EXIT_INPUT, "broken bond 1 joins the nodes 5 and");
     kr_record_free(r);
     unlink(path);
-    assert_int_equal(kr_memory_outstanding(), 0);
-}
-
-static void test_near_finds_all(void **state) {
-    enum { N = 700 };
-    double x[2 * N];
-    struct kr_near *near;
-    (void)state;
-    srand(7);
-    for (int i = 0; i < 2 * N; i++)
-        x[i] = (double)rand() / RAND_MAX * (i % 2 ? 0.3 : 2);
-    near = kr_near_create(N, x, 0.11);
-    for (int i = 0; i < N; i++) {
-        size_t count, wanted = 0;
-        const size_t *found = kr_near_find(near, x + 2 * i, &count);
-        for (int j = 0; j < N; j++)
-            wanted += hypot(x[2 * j] - x[2 * i], x[2 * j + 1] - x[2 * i + 1]) <= 0.11;
-        assert_int_equal(count, wanted);
-        for (size_t k = 0; k < count; k++)
-            assert_true(hypot(x[2 * found[k]] - x[2 * i], x[2 * found[k] + 1] - x[2 * i + 1]) <=
-                        0.11);
-    }
-    assert_false(kr_near_any(near, (double[2]){1, 0.42}));
-    assert_false(kr_near_any(near, (double[2]){-5, -5}));
-    kr_near_free(near);
     assert_int_equal(kr_memory_outstanding(), 0);
 }
 
@@ -455,15 +329,7 @@ int main(void) {
         cmocka_unit_test(test_precrack_that_never_grew),
         cmocka_unit_test(test_everything_at_once),
         cmocka_unit_test(test_hole_is_jumped),
-        cmocka_unit_test(test_one_crack_is_one_branch),
-        cmocka_unit_test(test_bifurcations),
-        cmocka_unit_test(test_crack_in_the_middle),
-        cmocka_unit_test(test_specks_and_twigs_do_not_count),
-        cmocka_unit_test(test_two_cracks_leave_a_hole),
-        cmocka_unit_test(test_cracks_apart),
-        cmocka_unit_test(test_branches_that_meet_again),
         cmocka_unit_test(test_reads_a_run),
-        cmocka_unit_test(test_near_finds_all),
     };
     kr_run_tests(tests);
 }

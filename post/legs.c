@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * From chains of damaged nodes to legs with paths and moves; see legs.h.
+ */
+#include "legs.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/memory.h"
+
+#define NONE KR_FRONT_NONE
+
+/** Whether the way to where the crack went leads through a node: on by a branch's length, or to the
+ *  end of the leg. */
+static int leads_on(const struct kr_front *front, size_t i, double end) {
+    return front->leads[i] - front->length[i] >= KR_FRONT_SHORTEST * front->record->horizon ||
+           front->leads[i] >= end - front->record->horizon;
+}
+
+/** Whether a node or a neighbour in its leg leads on: not so in twigs at its sides. */
+static int is_core(const struct kr_front *front, const size_t *of, size_t i, double end) {
+    int core = leads_on(front, i, end);
+    for (size_t f = front->first[i]; f < front->first[i + 1] && !core; f++) {
+        size_t j = (size_t)front->near[f];
+        core = of[j] == of[i] && leads_on(front, j, end);
+    }
+    return core;
+}
+
+/** Nodes of a leg in the order of their lengths: those of its chain that still belong to it, all or
+ *  those that the centre line goes by. */
+static size_t keep_own(const struct kr_front *front, const struct kr_chain *chain,
+                       const size_t *of, size_t leg, int core, size_t *node) {
+    double end = front->length[chain->node[chain->count - 1]];
+    size_t count = 0;
+    for (size_t k = 0; k < chain->count; k++)
+        if (of[chain->node[k]] == leg && (!core || is_core(front, of, chain->node[k], end)))
+            node[count++] = chain->node[k];
+    return count;
+}
+
+static size_t take_from_parent(const struct kr_chain *parent, const size_t *of, size_t leg,
+                               size_t *node) {
+    size_t count = 0;
+    for (size_t k = 0; k < parent->count; k++)
+        if (of[parent->node[k]] == leg)
+            node[count++] = parent->node[k];
+    return count;
+}
+
+static void trace_leg(const struct kr_front *front, const struct kr_chains *chains, size_t c,
+                      const double *anchor, struct kr_legs *legs) {
+    const struct kr_chain *chain = chains->item + c;
+    struct kr_leg *leg = legs->item + c;
+    size_t room = chain->count + (chain->parent == NONE ? 0 : chains->item[chain->parent].count);
+    size_t *node = KR_NEW(size_t, room);
+    size_t count = keep_own(front, chain, legs->of, c, 1, node);
+    kr_assert(count > 0);
+    kr_path_lay(front, count, node, isnan(anchor[2 * c]) ? NULL : anchor + 2 * c, &leg->path);
+    count = keep_own(front, chain, legs->of, c, 0, node);
+    if (chain->parent != NONE)
+        count += take_from_parent(chains->item + chain->parent, legs->of, c, node + count);
+    kr_path_follow(front, count, node, &leg->path);
+    kr_free(node);
+}
+
+/** Begin and end in place and time; forks come from the anchors of the arms. */
+static void measure_leg(const struct kr_chains *chains, size_t c, const double *anchor,
+                        struct kr_legs *legs) {
+    struct kr_leg *leg = legs->item + c;
+    const struct kr_path *path = &leg->path;
+    const struct kr_move *last = path->move + path->count - 1;
+    int anchored = !isnan(anchor[2 * c]);
+    leg->parent = chains->item[c].parent;
+    leg->is_forked = chains->item[c].n_children > 0;
+    leg->other = NONE;
+    leg->begin_s = anchored ? 0 : path->move[0].s;
+    leg->end_s = last->s;
+    memcpy(leg->from, anchored ? anchor + 2 * c : path->move[0].x, sizeof leg->from);
+    memcpy(leg->to, last->x, sizeof leg->to);
+    leg->first_time = path->move[0].time;
+    leg->last_time = last->time;
+}
+
+/** A leg that forks ends where and when its arms begin: all at one time. */
+static void join_arms(struct kr_legs *legs, size_t c) {
+    struct kr_leg *leg = legs->item + c;
+    const struct kr_move *last = leg->path.move + leg->path.count - 1;
+    for (size_t k = c + 1; k < legs->count; k++)
+        if (legs->item[k].parent == c) {
+            memcpy(leg->to, legs->item[k].from, sizeof leg->to);
+            leg->last_time = fmin(leg->last_time, legs->item[k].first_time);
+        }
+    leg->end_s = last->s + hypot(leg->to[0] - last->x[0], leg->to[1] - last->x[1]);
+    for (size_t k = c + 1; k < legs->count; k++)
+        if (legs->item[k].parent == c)
+            legs->item[k].first_time = leg->last_time;
+}
+
+void kr_legs_find(const struct kr_front *front, struct kr_legs *legs) {
+    struct kr_chains chains;
+    double *anchor;
+    kr_assert(front->record->dim == 2);
+    kr_chains_find(front, &chains);
+    *legs = (struct kr_legs){.count = chains.count};
+    legs->item = KR_NEW(struct kr_leg, chains.count);
+    legs->of = KR_NEW(size_t, front->n);
+    if (front->n)
+        memcpy(legs->of, chains.of, front->n * sizeof *legs->of);
+    anchor = KR_NEW(double, 2 * chains.count);
+    kr_legs_place_forks(front, &chains, legs->of, anchor);
+    for (size_t c = 0; c < chains.count; c++)
+        trace_leg(front, &chains, c, anchor, legs);
+    for (size_t c = 0; c < chains.count; c++)
+        measure_leg(&chains, c, anchor, legs);
+    for (size_t c = 0; c < chains.count; c++)
+        if (legs->item[c].is_forked)
+            join_arms(legs, c);
+    kr_legs_tell_ends(front, &chains, legs);
+    kr_legs_share_energy(front, legs);
+    kr_free(anchor);
+    kr_chains_clear(&chains);
+}
+
+void kr_legs_clear(struct kr_legs *legs) {
+    for (size_t c = 0; c < legs->count; c++)
+        kr_path_clear(&legs->item[c].path);
+    kr_free(legs->item);
+    kr_free(legs->of);
+    *legs = (struct kr_legs){0};
+}
