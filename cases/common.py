@@ -10,6 +10,7 @@ import math
 import os
 import subprocess
 import sys
+import time
 
 import numpy
 
@@ -43,6 +44,7 @@ class Case:
         self.folder = os.path.join("cases", name)
         self.size = "full" if FULL else "small"
         self.rows = []
+        self.seconds, self.megabytes = 0.0, 0.0  # wall time of all runs, most memory of one
 
     def path(self, label, *file):
         """Path of a file of a run."""
@@ -58,14 +60,31 @@ class Case:
         if FULL:
             command += ["--variant", "full"]
         log = os.path.join(folder, "log.txt")
+        began = time.monotonic()
         with open(log, "w") as to:
-            code = subprocess.call(command + [os.path.join(self.folder, deck)], stdout=to,
-                                   stderr=subprocess.STDOUT)
+            child = subprocess.Popen(command + [os.path.join(self.folder, deck)], stdout=to,
+                                     stderr=subprocess.STDOUT)
+            _, status, used = os.wait4(child.pid, 0)
+            child.returncode = code = os.waitstatus_to_exitcode(status)
+        self.count_cost(folder, log, time.monotonic() - began, used.ru_maxrss / 1024)
         if code:
             with open(log) as said:
                 sys.exit(f"{self.name}: {' '.join(command)} ended with {code}:\n{said.read()[-2000:]}")
         print(f"  {self.name}: {label} is there", flush=True)
         return folder
+
+    def count_cost(self, folder, log, seconds, megabytes):
+        """Add what a run took; what took it earlier where all was up to date by now."""
+        kept = os.path.join(folder, "cost.txt")
+        with open(log) as said:
+            anew = "kirsch-solve is up to date" not in said.read()
+        if anew or not os.path.exists(kept):
+            with open(kept, "w") as file:
+                file.write(f"{seconds:.1f} {megabytes:.0f}\n")
+        with open(kept) as file:
+            seconds, megabytes = map(float, file.read().split())
+        self.seconds += seconds
+        self.megabytes = max(self.megabytes, megabytes)
 
     def row(self, quantity, value, reference=None, tolerance=None, source="", verdict=None):
         """One comparison. Numbers: within `tolerance` (absolute) of `reference`; else a verdict that
@@ -78,6 +97,8 @@ class Case:
 
     def finish(self, notes=""):
         """Write the CSV and the table between the marks of the README, and print it."""
+        self.row("wall time of all runs [s]", self.seconds)
+        self.row("most memory of a program [MB]", self.megabytes)
         path = os.path.join(BUILD, "validation", self.name + ".csv")
         os.makedirs(os.path.dirname(path), exist_ok=True)
         with open(path + ".new", "w", newline="") as file:
