@@ -8,7 +8,7 @@
 #include "nodes.h"
 
 /** Write corners, elements and sets; material, section, supports and loads are the reader's own
- *  (`*INCLUDE, INPUT=plate.inp`). Lengths in m, all digits; whole or not at all.
+ *  (`*INCLUDE, INPUT=plate.inp`). Lengths in m, 13 digits; whole or not at all.
  *
  *  The corners are nodes 1, 2, ... in their order in the node file, the cell of node k is element
  *  k + 1: CPS3, CPS4 (plane stress) or C3D4, C3D6, C3D8, C3D10, C3D15, C3D20. A polygon of more

@@ -43,8 +43,9 @@ static void check(const struct kr_nodes *nodes, const char *path) {
                     (long long)nodes->tag[i], (long long)corners_of(nodes, i));
 }
 
+/* CalculiX reads 20 characters of a number, which hold 13 digits with sign and exponent. */
 static void put_point(FILE *to, size_t number, int dim, const double *x) {
-    fprintf(to, "%zu, %.17g, %.17g, %.17g\n", number, x[0], x[1], dim == 3 ? x[2] : 0);
+    fprintf(to, "%zu, %.13g, %.13g, %.13g\n", number, x[0], x[1], dim == 3 ? x[2] : 0);
 }
 
 /* Corners, then the middles of fans. */
