@@ -49,7 +49,7 @@ static double side(const double *a, const double *b, const double *p) {
     return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
 }
 
-/** Whether two segments meet; touching counts, as in kr_bonds_cut. */
+/** Whether two segments meet; touching counts, as in precrack.c. */
 static int segments_meet(const double *p, const double *q, const double *a, const double *b) {
     for (int d = 0; d < 2; d++)
         if (fmax(p[d], q[d]) < fmin(a[d], b[d]) || fmax(a[d], b[d]) < fmin(p[d], q[d]))
