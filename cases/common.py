@@ -43,7 +43,7 @@ class Case:
         self.name = name
         self.folder = os.path.join("cases", name)
         self.size = "full" if FULL else "small"
-        self.rows = []
+        self.rows, self.hidden = [], []
         self.seconds, self.megabytes = 0.0, 0.0  # wall time of all runs, most memory of one
 
     def path(self, label, *file):
@@ -86,12 +86,15 @@ class Case:
         self.seconds += seconds
         self.megabytes = max(self.megabytes, megabytes)
 
-    def row(self, quantity, value, reference=None, tolerance=None, source="", verdict=None):
+    def row(self, quantity, value, reference=None, tolerance=None, source="", verdict=None,
+            is_in_readme=True):
         """One comparison. Numbers: within `tolerance` (absolute) of `reference`; else a verdict that
-        the driver gives (True or False); with neither the row only tells."""
+        the driver gives (True or False); with neither the row only tells. Rows may stay out of the
+        README, for what a table of the driver's own (`finish`) tells better."""
         if verdict is None and reference is not None and tolerance is not None:
             verdict = abs(value - reference) <= tolerance
         word = "" if verdict is None else "agrees" if verdict else "differs"
+        self.hidden += [] if is_in_readme else [len(self.rows)]
         self.rows.append(dict(zip(COLUMNS, [self.name, self.size, quantity, text_of(value),
                                             text_of(reference), text_of(tolerance), word, source])))
 
@@ -112,9 +115,8 @@ class Case:
 
     def table(self):
         head = COLUMNS[2:]
-        lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-        lines += ["| " + " | ".join(row[name] for name in head) + " |" for row in self.rows]
-        return "\n".join(lines) + "\n"
+        return table_text(head, [[row[name] for name in head] for k, row in enumerate(self.rows)
+                                 if k not in self.hidden])
 
     def write_between(self, text):
         """Replace what stands between the marks of this size in the README."""
@@ -136,6 +138,13 @@ class Case:
         os.makedirs(os.path.dirname(path), exist_ok=True)
         figure.savefig(path, dpi=110, bbox_inches="tight", metadata={"Software": None})
         print(f"  wrote {path}")
+
+
+def table_text(head, rows):
+    """A table in Markdown."""
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    lines += ["| " + " | ".join(text_of(value) for value in row) + " |" for row in rows]
+    return "\n".join(lines) + "\n"
 
 
 def text_of(value):

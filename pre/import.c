@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "convert.h"
 #include "foreign.h"
+#include "inp.h"
 #include "nodes_dat.h"
 #include "pieces.h"
 #include "points.h"
@@ -137,6 +138,16 @@ static void write_vtu(const struct kr_nodes *nodes, const char *stem, const char
     kr_free(path);
 }
 
+static void write_inp(const struct kr_nodes *nodes, const char *stem, const char *nodes_file,
+                      double thickness) {
+    char *path = kr_text("%s.inp", stem);
+    (void)nodes_file;
+    (void)thickness;
+    kr_inp_write(nodes, path);
+    kr_say("  wrote %s", path);
+    kr_free(path);
+}
+
 static void write_exodus(const struct kr_nodes *nodes, const char *stem, const char *nodes_file,
                          double thickness) {
     char *path = kr_text("%s.e", stem), *beside = kr_text("%s.e.tmp", stem);
@@ -156,6 +167,7 @@ static const struct {
 } writers[] = {{"peridigm", write_peridigm},
                {"exodus", write_exodus},
                {"vtu", write_vtu},
+               {"inp", write_inp},
                {"csv", write_csv},
                {"dat", write_dat}};
 

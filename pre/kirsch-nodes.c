@@ -36,7 +36,7 @@ static const char usage[] =
     "  --thickness '1 mm'   of plane points with volumes, and for the volumes of --write\n"
     "  --repair             drop or turn cells that are faulty, and say so\n"
     "  --partition N        also divide the nodes into N parts with about as many bonds each (METIS)\n"
-    "  --write FORMAT,...   also write peridigm, exodus, vtu, csv, dat";
+    "  --write FORMAT,...   also write peridigm, exodus, vtu, inp, csv, dat";
 
 /* What the command line says beyond what every program takes. */
 struct wish {
@@ -80,7 +80,7 @@ static void check_formats(const char *formats) {
     char *copy = kr_text_copy(formats), *rest = NULL;
     for (char *word = strtok_r(copy, ",", &rest); word; word = strtok_r(NULL, ",", &rest))
         if (!kr_export_knows(word))
-            kr_stop(KR_EXIT_INPUT, "--write: found '%s'; expected peridigm, exodus, vtu, csv or dat",
+            kr_stop(KR_EXIT_INPUT, "--write: found '%s'; expected peridigm, exodus, vtu, inp, csv or dat",
                     word);
     kr_free(copy);
 }
