@@ -402,6 +402,23 @@ static const struct kr_deck_key output_keys[] = {
              "alone."},
     {"at", KR_DECK_NUMBERS, AT(output_at), "s", .fallback = "", NOT_NEGATIVE,
      .text = "Further times at which the fields are written."},
+    {"every_steps", KR_DECK_INTEGER, AT(every_steps), .fallback = "1", .least = 1, .most = 1e9,
+     .text = "Static stages: load steps from one output of the fields to the next; the end of a "
+             "stage always has one. history.csv has a line for each load step."},
+    {"first_damage", KR_DECK_BOOLEAN, AT(first_damage), .fallback = "false",
+     .text = "Write the fields where the first bond breaks, too."},
+    {"every_bonds", KR_DECK_INTEGER, AT(every_bonds), .fallback = "0", .least = 0, .most = 1e12,
+     .text = "Write the fields each time that so many bonds more have broken, too; 0: do not."},
+    {"fields", KR_DECK_TEXTS, AT(fields), .fallback = "",
+     .text = "Which fields the outputs hold: `displacement`, `velocity`, `damage`, `energy` (strain "
+             "energy density), which are the default, and `stress` and `strain`. kirsch-plot draws "
+             "what is there."},
+    {"precision", KR_DECK_CHOICE, AT(double_fields), .words = "single double", .fallback = "single",
+     .text = "Of the fields in the outputs: float32 or float64."},
+    {"compression", KR_DECK_CHOICE, AT(compression), .words = KR_COMPRESSION_WORDS,
+     .fallback = "scalars",
+     .text = "Which fields are packed (shuffle and gzip): `scalars`, which shrink, for damage is mostly 0; "
+             "`all`; `none`."},
     {"history_every", NUMBER_OF(AT(history_every), "s"), .fallback = "0 s", NOT_NEGATIVE,
      .text = "Time between two lines of history.csv; 0: every 20 steps."},
     {"damage_threshold", NUMBER_OF(AT(damage_threshold), "1"), .fallback = "0.35", .least = 0,

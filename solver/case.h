@@ -22,6 +22,18 @@
 #define KR_MODEL_WORDS "plane-stress plane-strain solid"
 #define KR_MICROMODULUS_WORDS "constant conical"
 #define KR_PRESET_WORDS "none plates-paper"
+#define KR_COMPRESSION_WORDS "scalars none all"
+#define KR_QUANTITY_WORDS "displacement velocity damage energy stress strain"
+enum kr_compression { KR_COMPRESS_SCALARS, KR_COMPRESS_NONE, KR_COMPRESS_ALL };
+enum kr_quantity {
+    KR_QUANTITY_DISPLACEMENT,
+    KR_QUANTITY_VELOCITY,
+    KR_QUANTITY_DAMAGE,
+    KR_QUANTITY_ENERGY,
+    KR_QUANTITY_STRESS,
+    KR_QUANTITY_STRAIN,
+    KR_QUANTITIES
+};
 enum kr_preset { KR_PRESET_NONE, KR_PRESET_PLATES_PAPER };
 enum kr_grid { KR_GRID_NEAR_BOUNDARY, KR_GRID_UNIFORM, KR_GRID_FREE, KR_GRID_VORONOI };
 enum kr_hole_shape {
@@ -234,6 +246,12 @@ struct kr_case {
     const char *folder;
     double output_every;          /* s */
     struct kr_deck_list output_at; /* double, s */
+    int64_t every_steps;           /* load steps of static stages */
+    int first_damage;              /* an output where the first bond breaks */
+    int64_t every_bonds;           /* and one for so many broken bonds; 0: none */
+    struct kr_deck_list fields;    /* const char *: words of KR_QUANTITY_WORDS; not given: the first four */
+    int double_fields;             /* fields stand in float64 */
+    int compression;               /* enum kr_compression */
     double history_every;         /* s */
     double damage_threshold;
 
@@ -328,6 +346,12 @@ double kr_case_hole_reach(const struct kr_case_hole *hole, double centre[2]);
  *  short degrees` for ellipses); or, as the plates paper hands them to ANSYS (appendix 4), a first line
  *  with their number and then lengths in millimetres. Stops (exit 2) and names the line. */
 struct kr_case_hole *kr_case_read_pores(const struct kr_case *c, const char *path, size_t *count);
+
+/** The field of this word (enum kr_quantity), -1 if there is none. */
+int kr_case_quantity(const char *word);
+
+/** Whether the outputs hang on what happens, so that their times are not known beforehand. */
+int kr_case_outputs_on_events(const struct kr_case *c);
 
 /** Whether the case has pores, by a count, a porosity or a file. */
 int kr_case_has_pores(const struct kr_case *c);

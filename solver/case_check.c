@@ -159,6 +159,30 @@ static void check_law(struct kr_deck *deck, const struct kr_case *c) {
     kr_deck_fault(deck, &c->law, "unknown law '%.40s'; there is %s", c->law, known);
 }
 
+int kr_case_quantity(const char *word) {
+    char known[32];
+    for (int k = 0; k < KR_QUANTITIES; k++) {
+        kr_case_word(KR_QUANTITY_WORDS, k, known);
+        if (!strcmp(word, known))
+            return k;
+    }
+    return -1;
+}
+
+int kr_case_outputs_on_events(const struct kr_case *c) {
+    return c->first_damage || c->every_bonds > 0;
+}
+
+static void check_fields(struct kr_deck *deck, const struct kr_case *c) {
+    const char *const *word = c->fields.item;
+    if (c->fields.given && !c->fields.count)
+        kr_deck_fault(deck, &c->fields, "empty; leave it out to have the usual fields");
+    for (size_t k = 0; k < c->fields.count; k++)
+        if (kr_case_quantity(word[k]) < 0)
+            kr_deck_fault(deck, &word[k], "unknown field '%.40s'; there are %s", word[k],
+                          KR_QUANTITY_WORDS);
+}
+
 int kr_case_dim(const struct kr_case *c) {
     return c->model == KR_SOLID ? 3 : 2;
 }
@@ -176,6 +200,7 @@ void kr_case_check(struct kr_deck *deck, const struct kr_case *c) {
     for (size_t i = 0; i < c->boxes.count; i++)
         if (kr_deck_given(deck, boxes[i].lower) && kr_deck_given(deck, boxes[i].upper))
             kr_case_check_box(deck, boxes[i].lower, boxes[i].upper, 2);
+    check_fields(deck, c);
     check_deformation(deck, c);
     check_law(deck, c);
 }

@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 static const char FORMAT[] = "kirsch checkpoint";
-enum { VERSION = 2 };
+enum { VERSION = 3 };
 
 /* The arrays of doubles, one after the other, and their names. */
 struct array {
@@ -60,7 +60,7 @@ static uint64_t checksum_of(const struct kr_checkpoint *at) {
                              at->crack->energy,       (double)at->history,  at->dt,
                              (double)at->steps,       (double)at->stage,    (double)at->before,
                              at->began,               at->clock,            (double)at->sites,
-                             (double)at->round,       at->most_pull,
+                             (double)at->round,       at->most_pull,        (double)at->event,
                              at->ledger->balance};
     return kr_hash(hash, number, sizeof number);
 }
@@ -101,6 +101,7 @@ static void write_all(struct kr_h5 *file, const struct kr_checkpoint *at) {
     kr_h5_set_int64(file, "/", "sites", at->sites);
     kr_h5_set_int64(file, "/", "stage", (int64_t)at->stage);
     kr_h5_set_int64(file, "/", "round", at->round);
+    kr_h5_set_int64(file, "/", "event", at->event);
     kr_h5_set_double(file, "/", "most_pull", at->most_pull);
     kr_h5_set_int64(file, "/", "steps_before", at->before);
     kr_h5_set_double(file, "/", "stage_began", at->began);
@@ -203,6 +204,7 @@ static void read_all(const struct kr_h5 *file, struct kr_checkpoint *at) {
     at->stage = (size_t)kr_h5_get_int64(file, "/", "stage");
     at->before = (long)kr_h5_get_int64(file, "/", "steps_before");
     at->most_pull = kr_h5_get_double(file, "/", "most_pull");
+    at->event = (int)kr_h5_get_int64(file, "/", "event");
     at->round = (long)kr_h5_get_int64(file, "/", "round");
     at->began = kr_h5_get_double(file, "/", "stage_began");
     at->clock = kr_h5_get_double(file, "/", "stage_clock");

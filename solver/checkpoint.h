@@ -21,6 +21,7 @@ struct kr_checkpoint {
     double clock;          /* s: of the stage; static */
     double most_pull;      /* N/m, in 3D N: greatest that held the body in static stages */
     long round;            /* of breaking within the load step; static */
+    int event;             /* an output is due for what broke in this load step */
     double dt;             /* s */
     long history, sites;   /* bytes of history.csv and sites.csv that are valid */
     const char *deck_text; /* resolved deck; a checkpoint of another deck is refused */

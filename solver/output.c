@@ -8,6 +8,7 @@
 #include "base/h5.h"
 #include "base/memory.h"
 #include "base/provenance.h"
+#include "quantity.h"
 #include "schedule.h"
 #include "topology.h"
 #include "wave.h"
@@ -26,7 +27,9 @@ struct kr_output {
     const struct kr_nodes *nodes; /* not owned */
     char *deck_text;
     size_t corners; /* length of the topology */
-    double *row;    /* (n x 3) room */
+    double *row;    /* (n x KR_TENSOR) room */
+    size_t n_fields;
+    int field[KR_QUANTITIES]; /* enum kr_quantity: those that are written, each once */
     int open;       /* outputs are not known beforehand */
     size_t n_due, room;
     struct kr_xdmf_step *due; /* all outputs of the run; `open`: those written */
@@ -159,13 +162,27 @@ static void find_written(struct kr_output *o, long done) {
     kr_free(path);
 }
 
+/* Those of the deck, in the order of the table. */
+static void choose_fields(struct kr_output *o) {
+    const char *const *word = o->c->fields.item;
+    int chosen[KR_QUANTITIES] = {1, 1, 1, 1};
+    for (int k = 0; k < KR_QUANTITIES && o->c->fields.given; k++)
+        chosen[k] = 0;
+    for (size_t k = 0; k < o->c->fields.count; k++)
+        chosen[kr_case_quantity(word[k])] = 1;
+    for (int k = 0; k < KR_QUANTITIES; k++)
+        if (chosen[k])
+            o->field[o->n_fields++] = k;
+}
+
 struct kr_output *kr_output_create(const struct kr_case *c, const struct kr_nodes *nodes,
                                    const struct kr_bonds *bonds, struct kr_output_plan plan,
                                    const char *deck_text) {
     struct kr_output *o = KR_NEW(struct kr_output, 1);
     *o = (struct kr_output){
         .c = c, .nodes = nodes, .deck_text = kr_text_copy(deck_text), .open = plan.open};
-    o->row = KR_NEW(double, nodes->n * 3);
+    o->row = KR_NEW(double, nodes->n * KR_TENSOR);
+    choose_fields(o);
     if (!plan.open)
         find_due(o, plan.dt, plan.steps);
     clear_folder(c, plan.resumed);
@@ -191,13 +208,27 @@ int kr_output_due(const struct kr_output *o, long step) {
 
 /* ---- one output ---- */
 
-/* Three components in 2D, too: ParaView warps by nothing less. */
-static void write_vectors(struct kr_output *o, struct kr_h5 *file, const char *name,
-                          double *const from[3]) {
-    for (size_t i = 0; i < o->nodes->n; i++)
-        for (size_t d = 0; d < 3; d++)
-            o->row[3 * i + d] = (int)d < o->nodes->dim ? from[d][i] : 0;
-    kr_h5_write_float(file, name, o->nodes->n, 3, o->row);
+/* Three components of a vector in 2D, too: ParaView warps by nothing less. */
+static void write_field(struct kr_output *o, struct kr_h5 *file, int field, const struct kr_body *body,
+                        double *const v[3]) {
+    const size_t n = body->n, columns = (size_t)kr_quantities[field].components;
+    const int packing = o->c->compression;
+    char *name = kr_text("/%s", kr_quantities[field].name);
+#pragma omp parallel for schedule(static)
+    for (size_t slice = 0; slice < body->bonds->n_slices; slice++) {
+        double value[KR_LANES][KR_TENSOR];
+        kr_quantity_slice(field, body, v, slice, value);
+        for (size_t i = slice * KR_LANES; i < n && i < (slice + 1) * KR_LANES; i++)
+            for (size_t k = 0; k < columns; k++)
+                o->row[columns * i + k] = value[i % KR_LANES][k];
+    }
+    /* Worth it for damage, which is mostly 0; vectors hardly shrink. */
+    kr_h5_pack(file, packing == KR_COMPRESS_ALL || (packing == KR_COMPRESS_SCALARS && columns == 1));
+    if (o->c->double_fields)
+        kr_h5_write_double(file, name, n, columns > 1 ? columns : 0, o->row);
+    else
+        kr_h5_write_float(file, name, n, columns > 1 ? columns : 0, o->row);
+    kr_free(name);
 }
 
 static void write_fields(struct kr_output *o, const struct kr_body *body,
@@ -206,13 +237,8 @@ static void write_fields(struct kr_output *o, const struct kr_body *body,
     struct kr_h5 *file = kr_h5_create(path, "kirsch output", 1);
     kr_h5_set_double(file, "/", "time", t);
     kr_h5_set_int64(file, "/", "step", step);
-    write_vectors(o, file, "/Displacement", body->u);
-    write_vectors(o, file, "/Velocity", ledger->v);
-    kr_h5_pack(file, 1); /* worth it for damage, which is mostly 0; vectors hardly shrink */
-    for (size_t i = 0; i < body->n; i++)
-        o->row[i] = kr_bonds_damage(body->bonds, i);
-    kr_h5_write_float(file, "/Damage", body->n, 0, o->row);
-    kr_h5_write_float(file, "/Stored_Elastic_Energy_Density", body->n, 0, body->energy);
+    for (size_t k = 0; k < o->n_fields; k++)
+        write_field(o, file, o->field[k], body, ledger->v);
     kr_h5_close(file);
     kr_free(name);
     kr_free(path);
@@ -242,7 +268,8 @@ static void write_xdmf(const struct kr_output *o, long step) {
     while (written < o->n_due && o->due[written].step <= step)
         written++;
     if (o->nodes->n_points)
-        kr_xdmf_write(path, o->nodes, o->corners, written, o->due);
+        kr_xdmf_write(path, o->nodes, o->corners, (struct kr_xdmf_fields){o->n_fields, o->field, o->c->double_fields},
+                      written, o->due);
     kr_free(path);
 }
 

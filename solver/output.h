@@ -23,7 +23,8 @@ struct kr_output; /* Opaque. Implemented in output.c. */
 struct kr_output_plan {
     double dt;   /* s */
     long steps;  /* of the whole run; with dt and the case's output times they tell the outputs ... */
-    int open;    /* ... but not with stages: then run.h5 links to run/steps.h5, written anew each time */
+    int open;    /* ... but not with stages or on events: then run.h5 links to run/steps.h5, written
+                    anew each time */
     int resumed; /* outputs of the earlier part of the run are kept; else all old ones are removed */
     long done;   /* steps done before it was resumed */
 };
@@ -34,7 +35,7 @@ struct kr_output *kr_output_create(const struct kr_case *c, const struct kr_node
                                    const char *deck_text);
 void kr_output_free(struct kr_output *output);
 
-/** Whether an output is due at this step, in a run without stages. The first and the last step always
+/** Whether an output is due at this step, in a run that is not `open`. The first and the last step always
  *  are. */
 int kr_output_due(const struct kr_output *output, long step);
 

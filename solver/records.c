@@ -15,6 +15,7 @@ void kr_records_open(struct kr_records *r, struct kr_run *run, const char *deck_
     *r = (struct kr_records){.run = run,
                              .crack = kr_crack_create(run->bonds, c->damage_threshold),
                              .ledger = kr_ledger_create(run->body),
+                             .open = run->staged || kr_case_outputs_on_events(c),
                              .saved = kr_progress_clock()};
     r->at = (struct kr_checkpoint){.steps = run->steps,
                                    .dt = run->dt,
@@ -33,7 +34,7 @@ void kr_records_open(struct kr_records *r, struct kr_run *run, const char *deck_
     int written = r->at.stage > 0 && r->at.step == 0;
     struct kr_output_plan plan = {.dt = run->dt,
                                   .steps = run->steps,
-                                  .open = run->staged,
+                                  .open = r->open,
                                   .resumed = resume,
                                   .done = r->at.before + r->at.step + written};
     r->output = kr_output_create(c, run->nodes, run->bonds, plan, deck_text);
@@ -53,9 +54,16 @@ void kr_records_close(struct kr_records *r) {
     kr_ledger_free(r->ledger);
 }
 
+/* Whether bonds that broke, from the first number to the second, ask for an output. */
+static int is_event(const struct kr_case *c, int64_t from, int64_t to) {
+    return (c->first_damage && from == 0 && to > 0) ||
+           (c->every_bonds && to / c->every_bonds > from / c->every_bonds);
+}
+
 void kr_records_crack(struct kr_records *r, long step, double t) {
     size_t from = r->crack->count;
     kr_crack_record(r->crack, r->run->body, r->at.began + t);
+    r->at.event |= is_event(r->run->c, (int64_t)from, (int64_t)r->crack->count);
     if (r->sites)
         kr_sites_note(r->sites, r->crack, from,
                       (struct kr_history_time){r->at.before + step, r->at.began + t, r->at.stage, t});
@@ -66,6 +74,8 @@ void kr_records_write(struct kr_records *r, int output, int last, long step, dou
     kr_history_write(r->history, r->ledger, r->crack, at);
     if (output)
         kr_output_write(r->output, r->run->body, r->ledger, r->crack, at.step, at.time, last);
+    if (output)
+        r->at.event = 0;
 }
 
 void kr_records_save(struct kr_records *r, long next) {

@@ -20,6 +20,7 @@ struct kr_records {
     struct kr_ledger *ledger;
     struct kr_history *history;
     struct kr_output *output;
+    int open; /* outputs are not known beforehand */
     struct kr_sites *sites; /* NULL in a run without stages */
     struct kr_checkpoint at; /* where the run stands: stage, step in it, steps and time before it */
     double saved; /* clock of the last checkpoint */

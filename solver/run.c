@@ -34,9 +34,9 @@ static struct due due_of(const struct kr_run *run, const struct kr_stage *stage)
 
 static int output_due(const struct kr_records *r, const struct due *due, long step, double t) {
     const struct kr_stage *stage = &r->run->stage[r->at.stage];
-    if (!r->run->staged)
+    if (!r->open)
         return kr_output_due(r->output, step);
-    return step == 0 || step == stage->steps || kr_schedule_due(&due->output, t, stage->dt);
+    return r->at.event || step == 0 || step == stage->steps || kr_schedule_due(&due->output, t, stage->dt);
 }
 
 /* The first step of a later stage is the last of the one before, and recorded there. `resting`: a

@@ -229,16 +229,18 @@ static void end(struct statics *s) {
     kr_equilibrium_free(s->q);
 }
 
-static void write(struct statics *s, int last, long step, double t) {
+/* Fields are due at the first and the last load step of a stage, every so many, and on events. */
+static void write(struct statics *s, int end_of_stage, int last, long step, double t) {
+    int due = end_of_stage || s->r->at.event || step % s->run->c->every_steps == 0;
     kr_boundary_rest(s->boundary, s->run->body, t);
-    kr_records_write(s->r, 1, last, step, t);
+    kr_records_write(s->r, due, last, step, t);
 }
 
 /* The state before any load. */
 static void write_start(struct statics *s) {
     kr_equilibrium_residual(s->q);
     kr_ledger_rest(s->r->ledger, s->run->body, s->r->crack, 0);
-    write(s, 0, 0, 0);
+    write(s, 0, 0, 0, 0);
 }
 
 /* One load step to its end: equilibrium without a bond past s0. */
@@ -271,7 +273,7 @@ int kr_run_static(struct kr_run *run, struct kr_records *r) {
         kr_records_save(r, step);
         load_step(&s, step);
         int done = s.apart || r->at.clock >= s.stage->end * (1 - 1e-12);
-        write(&s, done && (s.apart || r->at.stage + 1 == run->n_stages), step, r->at.clock);
+        write(&s, done, done && (s.apart || r->at.stage + 1 == run->n_stages), step, r->at.clock);
         r->at.round = 0;
         if (done)
             break;

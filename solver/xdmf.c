@@ -7,33 +7,26 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "quantity.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
-static const struct {
-    const char *name;
-    int is_vector;
-} fields[] = {
-    {"Displacement", 1},
-    {"Velocity", 1},
-    {"Damage", 0},
-    {"Stored_Elastic_Energy_Density", 0},
-};
-
-static void write_field(FILE *file, const struct kr_nodes *nodes, long step, size_t f) {
-    fprintf(file, "    <Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"Cell\">\n",
-            fields[f].name, fields[f].is_vector ? "Vector" : "Scalar");
-    fprintf(file, "     <DataItem Dimensions=\"%zu%s\"", nodes->n, fields[f].is_vector ? " 3" : "");
+static void write_field(FILE *file, const struct kr_nodes *nodes, long step, int field, int wide) {
+    const struct kr_quantity_kind *kind = &kr_quantities[field];
+    char columns[16] = "";
+    if (kind->components > 1)
+        snprintf(columns, sizeof columns, " %d", kind->components);
     fprintf(file,
-            " NumberType=\"Float\" Precision=\"4\" Format=\"HDF\">run/%06ld.h5:/%s</DataItem>\n"
-            "    </Attribute>\n",
-            step, fields[f].name);
+            "    <Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"Cell\">\n"
+            "     <DataItem Dimensions=\"%zu%s\" NumberType=\"Float\" Precision=\"%d\" "
+            "Format=\"HDF\">run/%06ld.h5:/%s</DataItem>\n    </Attribute>\n",
+            kind->name, kind->xdmf, nodes->n, columns, wide ? 8 : 4, step, kind->name);
 }
 
 static void write_step(FILE *file, const struct kr_nodes *nodes, size_t corners,
-                       struct kr_xdmf_step step) {
+                       struct kr_xdmf_fields fields, struct kr_xdmf_step step) {
     fprintf(file,
             "   <Grid Name=\"body\" GridType=\"Uniform\">\n"
             "    <Time Value=\"%.9g\"/>\n"
@@ -46,13 +39,13 @@ static void write_step(FILE *file, const struct kr_nodes *nodes, size_t corners,
             "Format=\"HDF\">run.h5:/mesh/point</DataItem>\n"
             "    </Geometry>\n",
             step.time, nodes->n, corners, nodes->dim == 2 ? "XY" : "XYZ", nodes->n_points, nodes->dim);
-    for (size_t f = 0; f < sizeof fields / sizeof fields[0]; f++)
-        write_field(file, nodes, step.step, f);
+    for (size_t f = 0; f < fields.n; f++)
+        write_field(file, nodes, step.step, fields.field[f], fields.wide);
     fprintf(file, "   </Grid>\n");
 }
 
-void kr_xdmf_write(const char *path, const struct kr_nodes *nodes, size_t corners, size_t n_steps,
-                   const struct kr_xdmf_step *step) {
+void kr_xdmf_write(const char *path, const struct kr_nodes *nodes, size_t corners,
+                   struct kr_xdmf_fields fields, size_t n_steps, const struct kr_xdmf_step *step) {
     char *beside = kr_text("%s.tmp", path);
     FILE *file = fopen(beside, "w");
     if (!file)
@@ -60,7 +53,7 @@ void kr_xdmf_write(const char *path, const struct kr_nodes *nodes, size_t corner
     fprintf(file, "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n <Domain>\n"
                   "  <Grid Name=\"run\" GridType=\"Collection\" CollectionType=\"Temporal\">\n");
     for (size_t k = 0; k < n_steps; k++)
-        write_step(file, nodes, corners, step[k]);
+        write_step(file, nodes, corners, fields, step[k]);
     fprintf(file, "  </Grid>\n </Domain>\n</Xdmf>\n");
     int failed = ferror(file) | fclose(file);
     if (failed || rename(beside, path))

@@ -13,13 +13,20 @@ struct kr_xdmf_step {
     double time; /* s */
 };
 
+/** The fields of each output. */
+struct kr_xdmf_fields {
+    size_t n;
+    const int *field; /* (n) enum kr_quantity */
+    int wide;         /* they stand in float64 */
+};
+
 /** Write the sidecar of run.h5 and run/KKKKKK.h5; appears whole or not at all.
  *
  *  in  path       of the sidecar
  *  in  corners    length of /mesh/topology
  *  Stops (exit 3) where it cannot be written.
  */
-void kr_xdmf_write(const char *path, const struct kr_nodes *nodes, size_t corners, size_t n_steps,
-                   const struct kr_xdmf_step *step);
+void kr_xdmf_write(const char *path, const struct kr_nodes *nodes, size_t corners,
+                   struct kr_xdmf_fields fields, size_t n_steps, const struct kr_xdmf_step *step);
 
 #endif

@@ -133,6 +133,73 @@ END
           exit !(worst < 1e-10 && $8 == $(n + 8) && $1 == $(n + 1)) }'
 }
 
+# What outputs hold, and when: fields by name, float64, packed; every 3rd load step, and on events.
+outputs() {
+    begin || return
+    "$build/kirsch-solve" --output "$work/now" --set 'output.fields=[stress, damage, strain]' --set output.precision=double \
+        --set output.compression=all --set output.every_steps=3 --set output.every_bonds=10 "$work/case.yaml" || return
+    for run in now whole; do
+        head -n 8 "$work/$run/history.csv" >"$work/$run.csv" # the static stage
+    done
+    cmp "$work/now.csv" "$work/whole.csv" || return
+    /usr/bin/python3 - "$work" <<'END'
+import sys, glob, csv, h5py, numpy as np
+work = sys.argv[1]
+few, all_ = (h5py.File(f"{work}/{k}/run.h5")["step"] for k in ("now", "whole"))
+first = sorted(few)[1]
+assert list(few[first]) == ["Damage", "Strain", "Stress"], list(few[first])
+assert few[first]["Stress"].dtype == "f8" and few[first]["Stress"].compression == "gzip"
+assert few[first]["Stress"].shape[1] == 6
+rows = [r for r in csv.DictReader(open(f"{work}/whole/history.csv")) if r["stage"] == "1"]
+broken = {int(r["step"]): int(r["broken_bonds"]) for r in rows}
+wanted = {s for s in broken if s % 3 == 0 or s == max(broken)
+          or s and broken[s] // 10 > broken[s - 1] // 10}
+got = {int(k) for k in few if int(k) <= max(broken)}
+assert got == wanted, (got, wanted)
+assert max(broken.values()) > 40 and len(wanted - {0, 3, 6, 7}) and len(wanted) < len(broken) <= len(all_)
+for k in few:
+    if k in all_:
+        assert np.array_equal(few[k]["Damage"][:].astype("f4"), all_[k]["Damage"][:])
+assert "Tensor6" in open(f"{work}/now/run.xdmf").read()
+print(f"# figure outputs at load steps {sorted(got)} of {len(broken)}")
+END
+}
+
+# A dynamic run without stages whose outputs hang on events: linked, and the same after an interrupt.
+on_events() {
+    whole || return
+    sed '/^stages:/,$d; /^output:/d; /^solver/d' "$work/case.yaml" >"$work/base.yaml"
+    cat >>"$work/base.yaml" <<'END'
+loads: [{set: up, velocity: [0 m/s, 5 m/s]}, {set: down, velocity: [0 m/s, 0 m/s]}]
+solver: {end_time: 40 us}
+output: {first_damage: true, every_bonds: 1000}
+END
+    for run in once again; do
+        mkdir -p "$work/$run" && cp "$work/whole/plate.nodes.h5" "$work/$run/"
+    done
+    "$build/kirsch-solve" --output "$work/once" "$work/base.yaml" || return
+    "$build/kirsch-solve" --output "$work/again" "$work/base.yaml" &
+    child=$!
+    while [ ! -e "$work/again/run/000000.h5" ]; do sleep 0.05; done
+    kill -TERM $child
+    wait $child
+    [ $? -eq 7 ] && "$build/kirsch-solve" --resume --output "$work/again" "$work/base.yaml" || return
+    diff -r "$work/once/run" "$work/again/run" && cmp "$work/once/run.xdmf" "$work/again/run.xdmf" || return
+    /usr/bin/python3 - "$work/once" <<'END'
+import sys, h5py, numpy as np
+file = h5py.File(sys.argv[1] + "/run.h5")
+time, first = file["crack/bond_time"][:], []
+for k in range(len(time)):
+    if k == 0 or (k + 1) % 1000 == 0:
+        first.append(time[k])
+wanted = sorted(set(first))
+got = sorted(file["step"][k].attrs["time"] for k in file["step"])[1:-1]
+assert np.allclose(got, [t for t in wanted if t < file["step"][max(file["step"])].attrs["time"]], rtol=1e-9), (got, wanted)
+assert len(got) > 2
+print(f"# figure {len(got)} outputs on events")
+END
+}
+
 # The pictures of the deck's faults.
 refused() { # words, sed command
     sed "$2" "$work/case.yaml" >"$work/wrong.yaml"
@@ -144,6 +211,9 @@ check one_and_two_threads_are_equal two_threads
 check after_kills_is_equal killed
 check after_an_interrupt_is_equal interrupted
 check split_dynamics_is_whole_dynamics split
+check outputs_are_chosen outputs
+check outputs_on_events on_events
+check unknown_field refused "unknown field 'tension'" 's/^output: {/output: {fields: [damage, tension], /'
 check names_a_free_slide refused 'moving along x' 's/\[0 mm, 0.01\*t mm\]/[free, 0.01*t mm]/; s/displacement: \[0 mm, 0 mm\]/displacement: [free, 0 mm]/'
 check static_has_no_end_time refused 'ends with its load steps' 's/end_below: 0/end_time: 1 s/'
 check nothing_holds refused 'nothing holds the body' '/stages:/,/steps/ { s/set: up, displacement: \[0 mm, 0.01\*t mm\]/set: top, traction: [free, 1 MPa]/; /set: down/d }'
