@@ -60,7 +60,7 @@ KERNEL_baseline :=
 KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 
-.PHONY: FORCE all help demo study test bench deps corrections pores-500 free-grid docs format install clean check-deps
+.PHONY: FORCE all help demo study test bench deps corrections pores-500 free-grid bar docs format install clean check-deps
 all: check-deps $(programs) $(scripts)
 
 help:
@@ -127,6 +127,10 @@ $(BUILD)/corrections: $(BUILD)/cases/corrections/corrections.o $(BUILD)/libkirsc
 	@echo "  link  $(@F)"
 	$(Q)$(CC) $(CFLAGS) -fopenmp $^ $(LIBS) -o $@
 
+$(BUILD)/bar: $(BUILD)/cases/bar/bar.o $(BUILD)/libkirsch.a
+	@echo "  link  $(@F)"
+	$(Q)$(CC) $(CFLAGS) -fopenmp $^ $(LIBS) -o $@
+
 # ---- running --------------------------------------------------------------------------------
 demo: deps
 	@$(MAKE) --no-print-directory all
@@ -150,6 +154,9 @@ corrections: all $(BUILD)/corrections
 pores-500: all $(BUILD)/fields
 	@$(BUILD)/fields $(or $(GRID),near-boundary) 1 $(or $(SEEDS),500) $(or $(PORES),30) $(or $(SPACING),0.25)
 
+bar: all $(BUILD)/bar
+	@BUILD=$(BUILD) cases/bar/table
+
 free-grid: all
 	@BUILD=$(BUILD) cases/free-grid/table
 
@@ -168,4 +175,4 @@ clean:
 	rm -rf $(BUILD)
 
 -include $(library_o:.o=.d) $(kernel_o:.o=.d) $(patsubst %.c,$(BUILD)/%.d,$(programs_c)) $(tests:=.d) \
-         $(BUILD)/cases/corrections/corrections.d $(BUILD)/cases/pores-500/fields.d
+         $(BUILD)/cases/corrections/corrections.d $(BUILD)/cases/pores-500/fields.d $(BUILD)/cases/bar/bar.d

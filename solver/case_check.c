@@ -135,7 +135,7 @@ static void check_times(struct kr_deck *deck, const struct kr_case *c) {
 }
 
 static void check_deformation(struct kr_deck *deck, const struct kr_case *c) {
-    if (c->surface_deformation == KR_UNIAXIAL_Z && c->model <= KR_PLANE_STRAIN)
+    if ((c->surface_deformation == KR_UNIAXIAL_Z || c->surface_deformation == KR_STRESS_Z) && c->model <= KR_PLANE_STRAIN)
         kr_deck_fault(deck, &c->surface_deformation,
                       "uniaxial-z is for bodies in 3D; a plate has x and y");
 }

@@ -10,6 +10,8 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 struct kr_search {
     int dim;
@@ -87,13 +89,41 @@ void kr_search_free(struct kr_search *s) {
     kr_free(s);
 }
 
+static int compare(const void *a, const void *b) {
+    return (*(const int *)a > *(const int *)b) - (*(const int *)a < *(const int *)b);
+}
+
+/* End of the ascending run that begins at `from`. */
+static size_t run_end(const int *a, size_t from, size_t n) {
+    size_t k = from + 1;
+    while (k < n && a[k - 1] < a[k])
+        k++;
+    return k < n ? k : n;
+}
+
+/* Merge the runs of a in pairs into b; returns how many pairs (or single last runs) there were. */
+static size_t merge_runs(const int *a, size_t n, int *b) {
+    size_t pairs = 0;
+    for (size_t at = 0; at < n; pairs++) {
+        size_t p = at, middle = run_end(a, at, n), q = middle;
+        size_t end = middle < n ? run_end(a, middle, n) : n;
+        for (; at < end; at++)
+            b[at] = q == end || (p < middle && a[p] < a[q]) ? a[p++] : a[q++];
+    }
+    return pairs;
+}
+
+/* The points of each bin are a run already. */
 static void sort_ascending(int *a, size_t n) {
-    for (size_t k = 1; k < n; k++) {
-        int value = a[k];
-        size_t m = k;
-        for (; m > 0 && a[m - 1] > value; m--)
-            a[m] = a[m - 1];
-        a[m] = value;
+    enum { MOST = 4096 };
+    int other[MOST];
+    if (n > MOST) {
+        qsort(a, n, sizeof *a, compare);
+        return;
+    }
+    for (size_t pairs = 2; pairs > 1;) {
+        pairs = merge_runs(a, n, other);
+        memcpy(a, other, n * sizeof *a);
     }
 }
 
