@@ -289,6 +289,8 @@ static void keep_all(struct kr_weights *w, const struct kr_search *search,
         int *near = KR_NEW(int, MOST_NEAR);
 #pragma omp for schedule(dynamic, 256)
         for (size_t i = 0; i < w->nodes->n; i++) {
+            if (fill && w->first_kept[i] == w->first_kept[i + 1])
+                continue;
             size_t count = keep_of(w, search, on_lattice, i, near, fill);
             if (!fill)
                 w->first_kept[i + 1] = count;
