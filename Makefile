@@ -55,10 +55,11 @@ scripts    := $(patsubst %,$(BUILD)/%,$(notdir $(wildcard pre/*.py post/*.py)))
 
 # The bond loop is built once for each kind of processor and chosen at run time.
 kernels    := $(if $(wildcard solver/kernel.c),baseline $(if $(filter x86_64,$(shell uname -m)),avx2 avx512))
-kernel_o   := $(patsubst %,$(BUILD)/solver/kernel_%.o,$(kernels))
+kernel_o   := $(foreach k,$(kernels),$(BUILD)/solver/kernel_$(k).o $(BUILD)/solver/kernel_$(k)_mixed.o)
 KERNEL_baseline :=
 KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
+$(foreach k,$(kernels),$(eval KERNEL_$(k)_mixed := $(KERNEL_$(k)) -DKR_FLOAT))
 
 .PHONY: FORCE all help demo study test bench deps corrections pores-500 free-grid bar docs format install clean check-deps
 all: check-deps $(programs) $(scripts)
@@ -146,7 +147,9 @@ test: deps
 
 bench: deps
 	@$(MAKE) --no-print-directory all
-	@$(BUILD)/kirsch-bench $(BUILD)/bench.csv
+	@tests/deps install lammps
+	@OMP_NUM_THREADS=1 lmp -in cases/bench/lammps_pmb.in -log $(BUILD)/lammps.log -screen none || true
+	@$(BUILD)/kirsch-bench $(BUILD)/bench.csv $(BUILD)/lammps.log
 
 corrections: all $(BUILD)/corrections
 	@BUILD=$(BUILD) cases/corrections/table

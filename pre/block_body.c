@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "cgal_surface.h"
 #include "outline.h"
-#include "stl.h"
+#include "stl_surface.h"
 
 #include <math.h>
 #include <string.h>

@@ -7,7 +7,7 @@
 #define KR_MSH_H
 
 #include "gather.h"
-#include "scan.h"
+#include "base/scan.h"
 
 /** A point, curve, surface or volume of MSH 4.1 and the groups it belongs to (of the gathering). */
 struct kr_msh_entity {

@@ -40,6 +40,10 @@ void kr_body_free(struct kr_body *body) {
     kr_free(body);
 }
 
+void kr_body_mix(struct kr_body *body) {
+    body->kernel = kr_kernel_mixed();
+}
+
 static struct kr_kernel_work work_of(const struct kr_body *body) {
     struct kr_kernel_work work = {
         .bonds = body->bonds, .energy = body->energy, .flag = body->flag};
@@ -173,6 +177,33 @@ void kr_body_advance(struct kr_body *body, double kick, double drift) {
             u[i] += drift * v[i];
         }
     }
+}
+
+void kr_body_damp(struct kr_body *body, double damping) {
+    const double pull = damping * body->bonds->material.density;
+    for (int d = 0; d < body->dim; d++) {
+        double *restrict force = body->force[d];
+        const double *restrict v = body->v[d];
+#pragma omp parallel for simd schedule(static)
+        for (size_t i = 0; i < body->n; i++)
+            force[i] -= pull * v[i];
+    }
+}
+
+int kr_body_overstretched(const struct kr_body *body) {
+    const struct kr_bonds *b = body->bonds;
+    const double *const u[3] = {body->u[0], body->u[1], body->u[2]};
+    struct kr_bond bond;
+    for (size_t slice = 0; slice < b->n_slices; slice++) {
+        if (!body->flag[slice])
+            continue;
+        struct kr_bond_walk walk = kr_bonds_walk(b, slice);
+        while (kr_bonds_next(b, &walk, &bond))
+            if (kr_exact_stretch(b, &bond, u) > b->material.critical_stretch &&
+                !b->no_fail[bond.i] && !b->no_fail[bond.j])
+                return 1;
+    }
+    return 0;
 }
 
 double kr_body_sum(size_t n, double (*term)(const void *context, size_t i), const void *context) {

@@ -25,6 +25,9 @@ struct kr_body {
 struct kr_body *kr_body_create(struct kr_bonds *bonds);
 void kr_body_free(struct kr_body *body);
 
+/** From now on the loop over bonds works in mixed precision (kernel.h). */
+void kr_body_mix(struct kr_body *body);
+
 /** Internal force density of every node at the displacements u; theory.md (7), plates paper eq. 11.
  *
  *  may_break: then break the bonds past the critical stretch (they pull with half their force in
@@ -50,6 +53,13 @@ void kr_body_product(struct kr_body *body, double *const v[], double *const prod
 
 /** v += kick * force/rho, then u += drift * v, for all nodes; times in s; theory.md (12). */
 void kr_body_advance(struct kr_body *body, double kick, double drift);
+
+/** force -= damping rho v, damping [1/s]; theory.md (27). */
+void kr_body_damp(struct kr_body *body, double damping);
+
+/** Whether a living bond that may break is past the critical stretch, as of the last kr_body_force
+ *  that broke none. */
+int kr_body_overstretched(const struct kr_body *body);
 
 /** Sum of term(context, i) over all nodes, by a fixed tree: same bits for any number of threads. */
 double kr_body_sum(size_t n, double (*term)(const void *context, size_t i), const void *context);

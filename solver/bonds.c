@@ -65,6 +65,7 @@ static void allocate_nodes(struct kr_bonds *b, const struct kr_nodes *nodes) {
         b->factor[i] = nodes->factor[i];
     }
     b->lattice = KR_NEW(unsigned char, b->n_slices);
+    b->twin = KR_NEW(unsigned char, (b->n_slices + 1) / 2);
     b->first = KR_NEW(size_t, b->n_slices + 1);
     b->first_inverse = KR_NEW(size_t, b->n_slices + 1);
     b->first_weight = KR_NEW(size_t, b->n_slices + 1);
@@ -79,6 +80,7 @@ void kr_bonds_free(struct kr_bonds *b) {
     kr_free(b->lost_volume);
     kr_free(b->no_fail);
     kr_free(b->lattice);
+    kr_free(b->twin);
     kr_free(b->first);
     kr_free(b->first_inverse);
     kr_free(b->first_weight);
@@ -144,23 +146,27 @@ static void make_kinds(struct builder *w) {
     b->kinds = KR_NEW(struct kr_bond_kind, b->n_kinds);
     for (size_t k = 0; k < b->n_kinds; k++) {
         struct kr_bond_kind *kind = &b->kinds[k];
+        struct kr_bond_geometry *g = &kind->geometry;
         size_t rest = k;
         double square = 0;
         for (int d = 0; d < b->dim; d++) {
-            kind->xi[d] = ((int)(rest % (size_t)side) - w->reach_in_cells) * w->size_of_lattice;
-            square += kind->xi[d] * kind->xi[d];
+            g->xi[d] = ((int)(rest % (size_t)side) - w->reach_in_cells) * w->size_of_lattice;
+            square += g->xi[d] * g->xi[d];
             rest /= (size_t)side;
         }
         if (square == 0)
             continue;
-        kind->length = sqrt(square);
-        kind->inverse_square = 1 / square;
-        /* Rounded to float32 as the general rows store it: both ends of a bond must agree. */
-        kind->weight = (float)kr_weight_lattice(w->weights->partial_volume, b->dim, kind->xi,
+        double inverse = (float)(1 / sqrt(square));
+        kind->length = 1 / inverse;
+        kind->weight = (float)kr_weight_lattice(w->weights->partial_volume, b->dim, g->xi,
                                                 m->horizon, w->size_of_lattice);
-        double c = kr_material_micromodulus(m, kind->length);
-        kind->pull = 0.5 * c * kind->weight * w->cell_volume / kind->length;
-        kind->store = 0.25 * c * kind->weight * w->cell_volume * kind->length;
+        double share = kr_material_micromodulus(m, kind->length) / m->micromodulus;
+        g->inverse_square = inverse * inverse;
+        g->pull = share * kind->weight * w->cell_volume * inverse;
+        g->store = 0.5 * share * kind->weight * w->cell_volume / inverse;
+        kind->rounded = (struct kr_bond_geometry32){
+            {(float)g->xi[0], (float)g->xi[1], (float)g->xi[2]},
+            (float)g->inverse_square, (float)g->pull, (float)g->store};
     }
 }
 
@@ -274,37 +280,46 @@ static void count_slice(const struct builder *w, size_t slice, struct scratch *s
     b->first_weight[slice + 1] = rims;
 }
 
-static void store_general_row(struct kr_bonds *b, const struct row *row, int rim, size_t *inverse,
-                              size_t *weight) {
+/* Row `to` of the bonds; `tuple` and `rim_tuple` are the places of its lengths and weights. */
+static void store_general_row(struct kr_bonds *b, const struct row *row, int rim, size_t to,
+                              size_t tuple, size_t rim_tuple) {
+    b->kind[to] = (uint16_t)rim;
+    /* Lanes without a bond are masked, but must not make NaNs: any length will do. */
     for (int lane = 0; lane < KR_LANES; lane++)
-        b->inverse[KR_LANES * *inverse + (size_t)lane] = (float)row->inverse[lane];
+        b->inverse[KR_LANES * tuple + (size_t)lane] =
+            (float)(row->mask >> lane & 1 ? row->inverse[lane] : 1 / b->material.horizon);
     for (int lane = 0; lane < KR_LANES && rim; lane++)
-        b->weight[KR_LANES * *weight + (size_t)lane] = (float)row->weight[lane];
-    *inverse += 1;
-    *weight += (size_t)rim;
+        b->weight[KR_LANES * rim_tuple + (size_t)lane] = (float)row->weight[lane];
 }
 
+static void store_row(struct kr_bonds *b, const struct row *row, size_t slice, size_t to) {
+    b->offset[to] = row->offset;
+    b->living[to] = row->mask;
+    for (int lane = 0; lane < KR_LANES; lane++)
+        if (row->mask >> lane & 1) {
+            size_t i = slice * KR_LANES + (size_t)lane;
+            size_t j = (size_t)((long)i + row->offset);
+            b->family_volume[i] += (float)row->weight[lane] * b->volume[j];
+        }
+}
+
+/* General slices: first the rows without weights, then those with. */
 static void fill_slice(const struct builder *w, size_t slice, struct scratch *s) {
     struct kr_bonds *b = w->bonds;
     int lattice;
-    size_t n_rows = make_slice(w, slice, s, &lattice);
-    size_t inverse = b->first_inverse[slice], weight = b->first_weight[slice];
-    for (size_t r = 0; r < n_rows; r++) {
-        const struct row *row = &s->row[r];
-        size_t to = b->first[slice] + r;
-        int rim = !lattice && is_rim(row);
-        b->offset[to] = row->offset;
-        b->living[to] = row->mask;
-        b->kind[to] = (uint16_t)(lattice ? row->kind : rim);
-        if (!lattice)
-            store_general_row(b, row, rim, &inverse, &weight);
-        for (int lane = 0; lane < KR_LANES; lane++)
-            if (row->mask >> lane & 1) {
-                size_t i = slice * KR_LANES + (size_t)lane;
-                size_t j = (size_t)((long)i + row->offset);
-                b->family_volume[i] += (float)row->weight[lane] * b->volume[j];
-            }
+    size_t n_rows = make_slice(w, slice, s, &lattice), to = b->first[slice];
+    size_t tuple = b->first_inverse[slice], rim_tuple = b->first_weight[slice];
+    for (size_t r = 0; r < n_rows && lattice; r++) {
+        b->kind[to] = (uint16_t)s->row[r].kind;
+        store_row(b, &s->row[r], slice, to++);
     }
+    for (int rim = 0; rim <= 1 && !lattice; rim++)
+        for (size_t r = 0; r < n_rows; r++)
+            if (is_rim(&s->row[r]) == rim) {
+                store_general_row(b, &s->row[r], rim, to, tuple++, rim_tuple);
+                store_row(b, &s->row[r], slice, to++);
+                rim_tuple += (size_t)rim;
+            }
 }
 
 static void for_all_slices(const struct builder *w,
@@ -324,17 +339,35 @@ static void sum_up(size_t *first, size_t n) {
         first[k + 1] += first[k];
 }
 
-/* Cut the slices into one block a thread, of about equally many rows. */
+/* Cut the slices into one block a thread, of about equally many rows; twins stay together. */
 static void make_blocks(struct kr_bonds *b) {
     b->n_blocks = omp_get_max_threads();
     b->block = KR_NEW(size_t, (size_t)b->n_blocks + 1);
     size_t slice = 0;
-    for (int k = 0; k <= b->n_blocks; k++) {
+    for (int k = 0; k < b->n_blocks; k++) {
         size_t rows = b->n_rows / (size_t)b->n_blocks * (size_t)k;
-        while (slice < b->n_slices && (b->first[slice] < rows || k == b->n_blocks))
-            slice++;
+        while (slice + 2 <= b->n_slices && b->first[slice] < rows)
+            slice += 2;
         b->block[k] = slice;
     }
+    b->block[b->n_blocks] = b->n_slices;
+}
+
+static int is_twin(const struct kr_bonds *b, size_t slice) {
+    size_t mine = b->first[slice], other = b->first[slice + 1], rows = other - mine;
+    if (!b->lattice[slice] || !b->lattice[slice + 1] || b->first[slice + 2] - other != rows)
+        return 0;
+    for (size_t r = 0; r < 2 * rows; r++)
+        if (b->living[mine + r] != (1 << KR_LANES) - 1)
+            return 0;
+    return !memcmp(b->offset + mine, b->offset + other, rows * sizeof *b->offset) &&
+           !memcmp(b->kind + mine, b->kind + other, rows * sizeof *b->kind);
+}
+
+void kr_bonds_find_twins(struct kr_bonds *b) {
+#pragma omp parallel for schedule(static)
+    for (size_t k = 0; k < b->n_slices / 2; k++)
+        b->twin[k] = (unsigned char)is_twin(b, 2 * k);
 }
 
 static void count_living(struct kr_bonds *b) {
@@ -349,7 +382,8 @@ struct kr_bonds *kr_bonds_create(const struct kr_nodes *nodes, const struct kr_m
     *b = (struct kr_bonds){.dim = nodes->dim, .n = nodes->n, .material = *material};
     b->n_slices = (nodes->n + KR_LANES - 1) / KR_LANES;
     allocate_nodes(b, nodes);
-    b->fit = kr_fit_make(material);
+    b->fit = kr_fit_make(material, KR_FIT_DOUBLE);
+    b->fit_mixed = kr_fit_make(material, KR_FIT_MIXED);
     double s0 = material->critical_stretch;
     b->flag_below = -b->fit.range;
     b->flag_above = isfinite(s0) ? fmin(s0 * (2 + s0) * (1 - 1e-12), b->fit.range) : b->fit.range;
@@ -380,6 +414,7 @@ struct kr_bonds *kr_bonds_create(const struct kr_nodes *nodes, const struct kr_m
     kr_free(w.on_lattice);
     kr_free(w.place);
     count_living(b);
+    kr_bonds_find_twins(b);
     make_blocks(b);
     return b;
 }
@@ -400,17 +435,15 @@ static void fill_bond(const struct kr_bonds *b, const struct kr_bond_walk *walk,
     *bond = (struct kr_bond){.row = walk->row, .lane = walk->lane, .i = i, .j = j, .weight = 1};
     if (b->lattice[walk->slice]) {
         const struct kr_bond_kind *kind = &b->kinds[b->kind[walk->row]];
-        memcpy(bond->xi, kind->xi, sizeof bond->xi);
+        memcpy(bond->xi, kind->geometry.xi, sizeof bond->xi);
         bond->length = kind->length;
         bond->weight = kind->weight;
         return;
     }
-    double square = 0;
-    for (int d = 0; d < b->dim; d++) {
+    size_t tuple = b->first_inverse[walk->slice] + walk->row - b->first[walk->slice];
+    for (int d = 0; d < b->dim; d++)
         bond->xi[d] = b->x[d][j] - b->x[d][i];
-        square += bond->xi[d] * bond->xi[d];
-    }
-    bond->length = sqrt(square);
+    bond->length = 1 / (double)b->inverse[KR_LANES * tuple + (size_t)walk->lane];
     if (b->kind[walk->row])
         bond->weight = b->weight[KR_LANES * walk->weight + (size_t)walk->lane];
 }
@@ -436,6 +469,7 @@ double kr_bonds_clear(struct kr_bonds *b, size_t i, size_t j) {
         int stored = !b->lattice[slice] && b->kind[r];
         if (b->offset[r] == offset && b->living[r] & bit) {
             b->living[r] &= (uint8_t)~bit;
+            b->twin[slice / 2] = 0;
             return b->lattice[slice] ? b->kinds[b->kind[r]].weight
                    : stored          ? b->weight[KR_LANES * weight + i % KR_LANES]
                                      : 1;

@@ -13,8 +13,13 @@
  *
  * Slices come in two classes. `lattice`: all bonds join lattice nodes of equal volume, so that a
  * row's bond vector and weight come from a small table (its `kind`). General: bond vectors come from
- * the positions, 1/|xi| is stored in float32 (and sharpened by a Newton step), and rows at the rim of
- * the horizon store their weights.
+ * the positions, 1/|xi| is stored, and rows at the rim of the horizon store their weights.
+ *
+ * Lengths and weights are rounded to float32 in both classes, the same from both ends. A bond's e is
+ * eta.(2 xi + eta)/|xi|^2 whatever |xi| is: force stays the energy's gradient and rest stays rest.
+ *
+ * Two slices 2k and 2k + 1 whose rows are whole and alike, as nearly all in the bulk, are twins: the
+ * fast loop goes through the rows of one for both.
  *
  * Each node sums its own family in the order of the rows: the same bits for any number of threads.
  */
@@ -30,14 +35,24 @@
 
 enum { KR_LANES = 8 };
 
-/** Geometry of the lattice bonds of one kind. */
-struct kr_bond_kind {
-    double xi[3];      /* m */
-    double length;     /* |xi|, m */
+/** What the fast loop wants of a kind of lattice bonds, and the same rounded for mixed precision. */
+struct kr_bond_geometry {
+    double xi[3];          /* m */
     double inverse_square; /* 1/|xi|^2 */
-    double weight;     /* phi */
-    double pull;       /* c phi V / (2 |xi|): times (lambda_i + lambda_j) pull e (xi + eta) */
-    double store;      /* c phi V |xi| / 4:  times (lambda_i + lambda_j) store e^2 */
+    double pull;           /* phi V/|xi|:  times c/2 (lambda_i + lambda_j) pull e (xi + eta) */
+    double store;          /* phi V |xi|/2: times c/2 (lambda_i + lambda_j) store e^2 */
+};
+struct kr_bond_geometry32 {
+    float xi[3], inverse_square, pull, store;
+};
+
+/** A kind of lattice bonds: all with the same vector. A conical micromodulus' share is in `pull` and
+ *  `store`. */
+struct kr_bond_kind {
+    struct kr_bond_geometry geometry;
+    struct kr_bond_geometry32 rounded;
+    double length; /* |xi|, m */
+    double weight; /* phi */
 };
 
 struct kr_bonds {
@@ -45,7 +60,7 @@ struct kr_bonds {
     size_t n, n_slices, n_rows;
     size_t count;              /* living bonds at the start, each pair counted from both ends */
     struct kr_material material;
-    struct kr_fit fit;
+    struct kr_fit fit, fit_mixed; /* fit_mixed: the shorter ones of mixed precision */
     double flag_above, flag_below; /* e outside of these: the slice takes the exact loop */
 
     /* per node; padded arrays of kr_bonds_padded */
@@ -57,13 +72,15 @@ struct kr_bonds {
 
     /* per slice */
     unsigned char *lattice;
+    unsigned char *twin;   /* ((n_slices + 1) / 2) of each pair of slices; 0 once a bond breaks */
     size_t *first;         /* (n_slices + 1) of its rows */
     size_t *first_inverse; /* (n_slices + 1) of its 8-tuples in `inverse` */
     size_t *first_weight;  /* (n_slices + 1) of its 8-tuples in `weight` */
 
     /* per row */
     int32_t *offset;
-    uint16_t *kind;  /* lattice: place in `kinds`; general: 1 if it stores weights, else 0 */
+    uint16_t *kind;  /* lattice: place in `kinds`; general: 1 in the slice's last rows, which store
+                        weights, else 0 */
     uint8_t *living; /* mask */
 
     float *inverse; /* 1/|xi| [1/m], 8 a general row */
@@ -103,6 +120,9 @@ void kr_bonds_padded_free(double *array);
 
 /** Damage of a node, 0 to 1: 1 - sum of mu phi V over sum of phi V; theory.md (9), paper eq. 10. */
 double kr_bonds_damage(const struct kr_bonds *bonds, size_t i);
+
+/** Find out anew which slices are twins, after bits of `living` were written. */
+void kr_bonds_find_twins(struct kr_bonds *bonds);
 
 /** Clear one bond at the end of node i if it lives; returns its weight phi, 0 if it did not live. */
 double kr_bonds_clear(struct kr_bonds *bonds, size_t i, size_t j);

@@ -10,15 +10,15 @@
 #include "case.h"
 #include "nodes.h"
 
-struct kr_boundary; /* Opaque. Implemented in boundary.c. */
+struct kr_boundary; /* Opaque: boundary_private.h. */
 
 /** Check that the sets that loads and no_fail name are there and not empty, and that tractions act on
  *  sets that belong to a boundary; what is wrong is a fault of the deck. */
 void kr_boundary_check(struct kr_deck *deck, const struct kr_case *c, const struct kr_nodes *nodes);
 
-/** The loads of a case that has passed kr_boundary_check. A fault of the deck: two loads that
+/** Loads (struct kr_case_load) of a case that has passed kr_boundary_check. A fault of the deck: two loads that
  *  prescribe the same component of a node. */
-struct kr_boundary *kr_boundary_create(struct kr_deck *deck, const struct kr_case *c,
+struct kr_boundary *kr_boundary_create(struct kr_deck *deck, const struct kr_deck_list *loads,
                                        const struct kr_nodes *nodes);
 void kr_boundary_free(struct kr_boundary *boundary);
 
@@ -46,7 +46,22 @@ void kr_boundary_velocity(struct kr_boundary *boundary, const struct kr_body *bo
 double kr_boundary_power(struct kr_boundary *boundary, const struct kr_body *body, double t,
                          double dt, int first);
 
-/** Loads and what they pulled with at the last kr_boundary_power. */
+/** Mark the prescribed components: bit d of fixed[i] (n). */
+void kr_boundary_fixed(const struct kr_boundary *boundary, unsigned char *fixed);
+
+/** Whether load k prescribes a motion (1) or a force (0); its nodes. */
+int kr_boundary_moves(const struct kr_boundary *boundary, size_t k);
+const struct kr_set *kr_boundary_nodes(const struct kr_boundary *boundary, size_t k);
+
+/** move[d][i] of each prescribed component: from body->u to where it is at time t. A velocity moves by
+ *  its value in the middle of the time from `from` to t. */
+void kr_boundary_way(struct kr_boundary *boundary, const struct kr_body *body, double from, double t,
+                     double *const move[3]);
+
+/** The reactions of a body at rest, from body->force (loads included), at time t. */
+void kr_boundary_rest(struct kr_boundary *boundary, const struct kr_body *body, double t);
+
+/** Loads and what they pulled with at the last kr_boundary_power or kr_boundary_rest. */
 size_t kr_boundary_count(const struct kr_boundary *boundary);
 const char *kr_boundary_set(const struct kr_boundary *boundary, size_t k);
 /** Component d of the force of load k on the body [N/m, in 3D N]. */

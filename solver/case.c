@@ -248,7 +248,9 @@ static const struct kr_deck_key nodes_keys[] = {
      .text = "The homogeneous deformation of the energy correction. `mean-over-axes`: the mean of "
              "the uniaxial strains along all axes, smooth and safe; `uniaxial-y`, `uniaxial-x`, in 3D "
              "also `uniaxial-z`: the paper's, exact for a load in that direction, but rough at its "
-             "edges and impossible between close holes; `isotropic`."},
+             "edges and impossible between close holes; `stress-x`, `stress-y`, in 3D also `stress-z`: a "
+             "uniaxial stress, the body shrinking across it, for bars ([theory.md](theory.md#surface-factors)); "
+             "`stress-over-axes`: the mean of these; `isotropic`."},
     {"sets", LIST_OF(KR_DECK_MAP, struct kr_case_set, set_keys), .offset = AT(sets),
      .text = "Named sets of nodes, for loads and no-fail zones: `top: {within: 0.3 mm, of: top}` "
              "or `{lower: [0 mm, 0 mm], upper: [1 mm, 2 mm]}`. A set is one of boundary, box, disc, "
@@ -337,10 +339,54 @@ static const struct kr_deck_key initial_keys[] = {
     {NULL},
 };
 
+#define STEPS_AT(field) offsetof(struct kr_case_steps, field)
+static const struct kr_deck_key steps_keys[] = {
+    {"count", KR_DECK_INTEGER, STEPS_AT(count), .fallback = "1", .least = 1, .most = 1e9,
+     .text = "How many."},
+    {"size", NUMBER_OF(STEPS_AT(size), "s"), POSITIVE,
+     .text = "How far each moves the stage's clock, and with it the loads."},
+    {NULL},
+};
+
+#define STAGE_AT(field) offsetof(struct kr_case_stage, field)
+static const struct kr_deck_key stage_keys[] = {
+    {"kind", KR_DECK_CHOICE, STAGE_AT(kind), .words = KR_STAGE_WORDS,
+     .text = "`dynamic`: motion in time; `static`: load step by load step to equilibrium, breaking "
+             "bonds until none is past its limit; `relaxation`: motion that is damped "
+             "until it rests."},
+    {"loads", LIST_OF(KR_DECK_LIST, struct kr_case_load, load_keys), .offset = STAGE_AT(loads),
+     .text = "Loads of this stage alone, in place of the deck's. In all loads `t` is the stage's "
+             "clock, which begins at 0."},
+    {"end_time", NUMBER_OF(STAGE_AT(end_time), "s"), .fallback = "", POSITIVE,
+     .text = "Dynamic: how long it lasts. Relaxation: how long at the most."},
+    {"damping", NUMBER_OF(STAGE_AT(damping), "s^-1"), .fallback = "0 s^-1", NOT_NEGATIVE,
+     .text = "Dynamic: a force density of this times density and velocity holds against the motion "
+             "(Rayleigh's mass-proportional damping)."},
+    {"steps", LIST_OF(KR_DECK_LIST, struct kr_case_steps, steps_keys), .offset = STAGE_AT(steps),
+     .text = "Static: load steps, in turn: `[{count: 8, size: 1 s}, {count: 100, size: 0.01 s}]`. Not "
+             "given: one of 1 s. The clock is one of the load alone: nothing moves in it."},
+    {"least_step", NUMBER_OF(STAGE_AT(least_step), "s"), .fallback = "0 s", NOT_NEGATIVE,
+     .text = "Static: a load step that would break the first bond is halved until it is no larger than "
+             "this; 0: load steps are taken as they are."},
+    {"end_below", NUMBER_OF(STAGE_AT(end_below), "1"), .fallback = "0.01", .least = 0, .most = 1,
+     .text = "Static: once bonds broke, the run ends where what holds the body is less than this share of "
+             "the most it was. It also ends where no bond joins two supports any more."},
+    {"tolerance", NUMBER_OF(STAGE_AT(tolerance), "1"), .fallback = "1e-6", .least = 0, .most = 0.1,
+     .exclusive = 1,
+     .text = "Static and relaxation: forces left on free nodes, over the forces that hold the body."},
+    {"breaks", KR_DECK_BOOLEAN, STAGE_AT(breaks), .fallback = "true",
+     .text = "Whether bonds may break in this stage."},
+    {NULL},
+};
+
 static const struct kr_deck_key solver_keys[] = {
-    {"end_time", NUMBER_OF(AT(end_time), "s"), POSITIVE, .text = "Time at which the run ends."},
+    {"end_time", NUMBER_OF(AT(end_time), "s"), .fallback = "", POSITIVE,
+     .text = "Time at which the run ends; needed where there are no `stages`, which have their own."},
     {"time_step", NUMBER_OF(AT(time_step), "s"), .fallback = "0 s", NOT_NEGATIVE,
      .text = "Step of velocity-Verlet; 0: the largest stable step times `safety_factor`."},
+    {"precision", KR_DECK_CHOICE, AT(precision), .words = "double mixed", .fallback = "double",
+     .text = "`mixed`: what the loop over bonds makes of the differences of displacements is "
+             "float32, some 10 % faster ([performance.md](performance.md#mixed-precision))."},
     {"safety_factor", NUMBER_OF(AT(safety_factor), "1"), .fallback = "0.8", .least = 0, .most = 1,
      .exclusive = 1, .text = "Share of the largest stable step that is taken."},
     {"checkpoint_every", NUMBER_OF(AT(checkpoint_every), "s"), .fallback = "600 s", NOT_NEGATIVE,
@@ -403,6 +449,9 @@ const struct kr_deck_key kr_case_keys[] = {
     {"loads", LIST_OF(KR_DECK_LIST, struct kr_case_load, load_keys), .offset = AT(loads),
      .text = "What moves or pulls the plate. Each load has a set and just one of displacement, "
              "velocity, traction and body_force."},
+    {"stages", LIST_OF(KR_DECK_LIST, struct kr_case_stage, stage_keys), .offset = AT(stages),
+     .text = "Parts of the run, in turn; the body goes from one to the next as it is. Not given: one "
+             "dynamic stage until `solver.end_time`."},
     {"solver", KR_DECK_SECTION, .keys = solver_keys, .text = "Time integration."},
     {"output", KR_DECK_SECTION, .keys = output_keys, .text = "What is written, and where."},
     {"track", KR_DECK_SECTION, .keys = track_keys, .text = "How kirsch-track follows cracks."},

@@ -60,6 +60,7 @@ enum kr_deformation {
     KR_UNIAXIAL_Y, KR_UNIAXIAL_X, KR_ISOTROPIC, KR_MEAN_OVER_AXES, KR_UNIAXIAL_Z,
     KR_STRESS_X, KR_STRESS_Y, KR_STRESS_Z, KR_STRESS_OVER_AXES
 };
+enum kr_precision { KR_DOUBLE, KR_MIXED };
 enum kr_model { KR_PLANE_STRESS, KR_PLANE_STRAIN, KR_SOLID };
 enum kr_micromodulus { KR_CONSTANT, KR_CONICAL };
 
@@ -154,6 +155,28 @@ struct kr_case_load {
     double ramp; /* s: from 0 to the full value in this time; 0: at once */
 };
 
+/* Load steps of equal size. */
+struct kr_case_steps {
+    int64_t count;
+    double size; /* s of the stage's clock */
+};
+
+#define KR_STAGE_WORDS "dynamic static relaxation"
+enum kr_stage_kind { KR_STAGE_DYNAMIC, KR_STAGE_STATIC, KR_STAGE_RELAXATION };
+
+/* A part of the run. Its clock begins at 0; loads follow it. */
+struct kr_case_stage {
+    int kind;                  /* enum kr_stage_kind */
+    struct kr_deck_list loads; /* struct kr_case_load; not given: those of the deck */
+    double end_time;           /* s; dynamic, relaxation */
+    double damping;            /* 1/s; dynamic */
+    struct kr_deck_list steps; /* struct kr_case_steps; static */
+    double least_step;         /* s; static: 0: load steps are taken as they are */
+    double end_below;          /* static: of the greatest pull; less ends the run */
+    double tolerance;          /* static, relaxation: of the residual */
+    int breaks;                /* bonds may break */
+};
+
 struct kr_case_box {
     double lower[2], upper[2]; /* m */
     int direction;             /* 0 +x, 1 -x, 2 +y, 3 -y */
@@ -202,9 +225,12 @@ struct kr_case {
     struct kr_deck_list loads;   /* struct kr_case_load */
     struct kr_deck_list no_fail; /* const char * */
 
+    struct kr_deck_list stages; /* struct kr_case_stage; not given: one dynamic stage */
+
     /* solver */
-    double end_time;      /* s */
+    double end_time;      /* s; 0: not given, for there are stages */
     double time_step;     /* s; 0: found */
+    int precision;        /* enum kr_precision */
     double safety_factor; /* of the largest stable step */
     double checkpoint_every; /* s of wall time; 0: only on signals */
 
@@ -275,6 +301,13 @@ void kr_case_complete_geometry(struct kr_deck *deck, struct kr_case *c);
 
 /** The part of it that looks at outline, holes and pores. */
 void kr_case_check_geometry(struct kr_deck *deck, const struct kr_case *c);
+
+/** The part of it that looks at stages and the end of the run. */
+void kr_case_check_stages(struct kr_deck *deck, const struct kr_case *c);
+
+/** Loads of a stage: its own, or the deck's (struct kr_case_load). */
+const struct kr_deck_list *kr_case_loads(const struct kr_case *c,
+                                         const struct kr_case_stage *stage);
 
 /** The part of it that looks at depth, voids and the body of an STL file. */
 void kr_case_check_solid(struct kr_deck *deck, const struct kr_case *c);

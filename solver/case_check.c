@@ -90,13 +90,21 @@ static void check_load(struct kr_deck *deck, const struct kr_case *c,
         kr_deck_fault(deck, first, "all components are free; the load does nothing");
 }
 
+static void check_loads(struct kr_deck *deck, const struct kr_case *c,
+                        const struct kr_deck_list *list) {
+    const struct kr_case_load *loads = list->item;
+    for (size_t i = 0; i < list->count; i++)
+        check_load(deck, c, &loads[i]);
+}
+
 static void check_sets_and_loads(struct kr_deck *deck, const struct kr_case *c) {
     const struct kr_case_set *sets = c->sets.item;
-    const struct kr_case_load *loads = c->loads.item;
+    const struct kr_case_stage *stages = c->stages.item;
     for (size_t i = 0; i < c->sets.count; i++)
         kr_case_check_set(deck, c, &sets[i]);
-    for (size_t i = 0; i < c->loads.count; i++)
-        check_load(deck, c, &loads[i]);
+    check_loads(deck, c, &c->loads);
+    for (size_t k = 0; k < c->stages.count; k++)
+        check_loads(deck, c, &stages[k].loads);
 }
 
 static void check_initial(struct kr_deck *deck, const struct kr_case *c) {
@@ -135,9 +143,12 @@ static void check_times(struct kr_deck *deck, const struct kr_case *c) {
 }
 
 static void check_deformation(struct kr_deck *deck, const struct kr_case *c) {
-    if ((c->surface_deformation == KR_UNIAXIAL_Z || c->surface_deformation == KR_STRESS_Z) && c->model <= KR_PLANE_STRAIN)
+    int along_z = c->surface_deformation == KR_UNIAXIAL_Z || c->surface_deformation == KR_STRESS_Z;
+    char word[32];
+    kr_case_word(KR_DEFORMATION_WORDS, along_z ? c->surface_deformation : 0, word);
+    if (along_z && c->model <= KR_PLANE_STRAIN)
         kr_deck_fault(deck, &c->surface_deformation,
-                      "uniaxial-z is for bodies in 3D; a plate has x and y");
+                      "%s is for bodies in 3D; a plate has x and y", word);
 }
 
 static void check_law(struct kr_deck *deck, const struct kr_case *c) {
@@ -163,6 +174,7 @@ void kr_case_check(struct kr_deck *deck, const struct kr_case *c) {
     check_sets_and_loads(deck, c);
     kr_case_check_cracks(deck, c);
     check_initial(deck, c);
+    kr_case_check_stages(deck, c);
     check_times(deck, c);
     for (size_t i = 0; i < c->boxes.count; i++)
         if (kr_deck_given(deck, boxes[i].lower) && kr_deck_given(deck, boxes[i].upper))
@@ -171,12 +183,22 @@ void kr_case_check(struct kr_deck *deck, const struct kr_case *c) {
     check_law(deck, c);
 }
 
-static int is_used(const struct kr_case *c, const char *set) {
-    const struct kr_case_load *loads = c->loads.item;
-    const char *const *names = c->no_fail.item;
-    for (size_t i = 0; i < c->loads.count; i++)
+static int loads_use(const struct kr_deck_list *list, const char *set) {
+    const struct kr_case_load *loads = list->item;
+    for (size_t i = 0; i < list->count; i++)
         if (!strcmp(loads[i].set, set))
             return 1;
+    return 0;
+}
+
+static int is_used(const struct kr_case *c, const char *set) {
+    const struct kr_case_stage *stages = c->stages.item;
+    const char *const *names = c->no_fail.item;
+    int used = loads_use(&c->loads, set);
+    for (size_t k = 0; k < c->stages.count && !used; k++)
+        used = loads_use(&stages[k].loads, set);
+    if (used)
+        return 1;
     for (size_t i = 0; i < c->no_fail.count; i++)
         if (!strcmp(names[i], set))
             return 1;

@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 static const char FORMAT[] = "kirsch checkpoint";
-enum { VERSION = 1 };
+enum { VERSION = 2 };
 
 /* The arrays of doubles, one after the other, and their names. */
 struct array {
@@ -58,7 +58,10 @@ static uint64_t checksum_of(const struct kr_checkpoint *at) {
     hash = kr_hash(hash, crack->held, crack->count * sizeof *crack->held);
     const double number[] = {(double)at->step,        at->ledger->external, at->ledger->power,
                              at->crack->energy,       (double)at->history,  at->dt,
-                             (double)at->steps};
+                             (double)at->steps,       (double)at->stage,    (double)at->before,
+                             at->began,               at->clock,            (double)at->sites,
+                             (double)at->round,       at->most_pull,
+                             at->ledger->balance};
     return kr_hash(hash, number, sizeof number);
 }
 
@@ -95,6 +98,14 @@ static void write_all(struct kr_h5 *file, const struct kr_checkpoint *at) {
     kr_h5_set_int64(file, "/", "step", at->step);
     kr_h5_set_int64(file, "/", "steps", at->steps);
     kr_h5_set_int64(file, "/", "history", at->history);
+    kr_h5_set_int64(file, "/", "sites", at->sites);
+    kr_h5_set_int64(file, "/", "stage", (int64_t)at->stage);
+    kr_h5_set_int64(file, "/", "round", at->round);
+    kr_h5_set_double(file, "/", "most_pull", at->most_pull);
+    kr_h5_set_int64(file, "/", "steps_before", at->before);
+    kr_h5_set_double(file, "/", "stage_began", at->began);
+    kr_h5_set_double(file, "/", "stage_clock", at->clock);
+    kr_h5_set_double(file, "/", "balance", at->ledger->balance);
     kr_h5_set_double(file, "/", "time_step", at->dt);
     kr_h5_set_double(file, "/", "external_work", at->ledger->external);
     kr_h5_set_double(file, "/", "most_external_work", at->ledger->most_external);
@@ -183,10 +194,19 @@ static void read_all(const struct kr_h5 *file, struct kr_checkpoint *at) {
     }
     int32_t *word = kr_h5_read_int32(file, "/living", words_of(at->body->bonds), 0);
     memcpy(at->body->bonds->living, word, at->body->bonds->n_rows);
+    kr_bonds_find_twins(at->body->bonds);
     kr_free(word);
     read_crack(file, at->crack);
     at->step = (long)kr_h5_get_int64(file, "/", "step");
     at->history = (long)kr_h5_get_int64(file, "/", "history");
+    at->sites = (long)kr_h5_get_int64(file, "/", "sites");
+    at->stage = (size_t)kr_h5_get_int64(file, "/", "stage");
+    at->before = (long)kr_h5_get_int64(file, "/", "steps_before");
+    at->most_pull = kr_h5_get_double(file, "/", "most_pull");
+    at->round = (long)kr_h5_get_int64(file, "/", "round");
+    at->began = kr_h5_get_double(file, "/", "stage_began");
+    at->clock = kr_h5_get_double(file, "/", "stage_clock");
+    at->ledger->balance = kr_h5_get_double(file, "/", "balance");
     at->ledger->external = kr_h5_get_double(file, "/", "external_work");
     at->ledger->most_external = kr_h5_get_double(file, "/", "most_external_work");
     at->ledger->power = kr_h5_get_double(file, "/", "power");

@@ -11,11 +11,18 @@
 #include "crack.h"
 #include "ledger.h"
 
-/** Where a run stands, between two steps: `step` is the next one, body->v is half a step behind it. */
+/** Where a run stands, between two steps: `step` is the next one of its stage; in a dynamic one body->v
+ *  is half a step behind it, but for step 0. */
 struct kr_checkpoint {
-    long step, steps;
+    size_t stage;
+    long step, steps;      /* of the stage, of the whole run */
+    long before;           /* steps of the stages before */
+    double began;          /* s: time of the run when the stage began */
+    double clock;          /* s: of the stage; static */
+    double most_pull;      /* N/m, in 3D N: greatest that held the body in static stages */
+    long round;            /* of breaking within the load step; static */
     double dt;             /* s */
-    long history;          /* bytes of history.csv that are valid */
+    long history, sites;   /* bytes of history.csv and sites.csv that are valid */
     const char *deck_text; /* resolved deck; a checkpoint of another deck is refused */
     struct kr_body *body;
     struct kr_ledger *ledger;

@@ -116,6 +116,7 @@ void kr_exact_break(struct kr_bonds *b, const struct kr_kernel_work *work, size_
         if (!(s > b->material.critical_stretch) || b->no_fail[bond.i] || b->no_fail[bond.j])
             continue;
         b->living[bond.row] &= (uint8_t)~(1u << bond.lane);
+        b->twin[slice / 2] = 0;
         pair_force(work, &bond, s, force);
         for (int d = 0; d < b->dim; d++)
             work->force[d][bond.i] -= 0.5 * force[d];

@@ -82,10 +82,10 @@ static double error_of(const struct kr_polynomial *p, double (*at)(const struct 
 }
 
 static struct kr_polynomial fit_one(double (*at)(const struct kr_law *, double),
-                                    const struct kr_law *law, double range) {
-    int n = 6;
+                                    const struct kr_law *law, double range, double enough) {
+    int n = 4;
     struct kr_polynomial fit = interpolate(at, law, range, n);
-    while (n + 2 <= KR_FIT_TERMS && error_of(&fit, at, law, range) > 1e-14) {
+    while (n + 2 <= KR_FIT_TERMS && error_of(&fit, at, law, range) > enough) {
         n += 2;
         struct kr_polynomial better = interpolate(at, law, range, n);
         if (error_of(&better, at, law, range) >= error_of(&fit, at, law, range))
@@ -95,12 +95,12 @@ static struct kr_polynomial fit_one(double (*at)(const struct kr_law *, double),
     return fit;
 }
 
-struct kr_fit kr_fit_make(const struct kr_material *material) {
+struct kr_fit kr_fit_make(const struct kr_material *material, double enough) {
     double s0 = material->critical_stretch;
     double critical = isfinite(s0) ? s0 * (2 + s0) : 0.1;
     struct kr_fit fit = {.range = fmin(fmax(1.001 * critical, 0.02), 0.5)};
-    fit.pull = fit_one(pull_at, material->law, fit.range);
-    fit.store = fit_one(store_at, material->law, fit.range);
+    fit.pull = fit_one(pull_at, material->law, fit.range, enough);
+    fit.store = fit_one(store_at, material->law, fit.range, enough);
     fit.tangent = interpolate(tangent_at, material->law, fit.range, fit.pull.terms);
     return fit;
 }

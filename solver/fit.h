@@ -30,9 +30,13 @@ struct kr_fit {
     struct kr_polynomial pull, store, tangent; /* tangent has as many terms as pull */
 };
 
-/** Fit a material's law to a relative error below 1e-14 where KR_FIT_TERMS terms allow it. `range`
+/** What a fit's relative error may be. Bond lengths are rounded to 6e-8 (bonds.h); float32 rounds each
+ *  step of the arithmetic by as much. Each two terms more cost an eighth of the time. */
+static const double KR_FIT_DOUBLE = 1e-12, KR_FIT_MIXED = 5e-7;
+
+/** Fit a material's law to a relative error below `enough` where KR_FIT_TERMS terms allow it. `range`
  *  reaches just past the critical stretch, but at least to 0.02 (bonds may be pressed harder than
  *  they may be pulled) and at most to 0.5: outside, the loop takes the law itself. */
-struct kr_fit kr_fit_make(const struct kr_material *material);
+struct kr_fit kr_fit_make(const struct kr_material *material, double enough);
 
 #endif

@@ -31,3 +31,7 @@ enum kr_interrupt kr_interrupt_asked(void) {
     checkpoint = 0;
     return KR_INTERRUPT_CHECKPOINT;
 }
+
+enum kr_interrupt kr_interrupt_pending(void) {
+    return stop ? KR_INTERRUPT_STOP : KR_INTERRUPT_NONE;
+}

@@ -14,4 +14,7 @@ void kr_interrupt_begin(void);
 /** What was asked for since the last call; a stop stays asked for. */
 enum kr_interrupt kr_interrupt_asked(void);
 
+/** Whether a stop was asked for, and nothing else: long work between two looks ends early. */
+enum kr_interrupt kr_interrupt_pending(void);
+
 #endif

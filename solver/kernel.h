@@ -32,4 +32,8 @@ struct kr_kernel {
  *  another one that it can run. Stops (exit 2) if it cannot. */
 const struct kr_kernel *kr_kernel_best(void);
 
+/** The same loop in mixed precision: differences of displacements in double, what is made of them in
+ *  float32; docs/performance.md. */
+const struct kr_kernel *kr_kernel_mixed(void);
+
 #endif

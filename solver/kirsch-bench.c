@@ -16,11 +16,20 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The set of speed measurements: the plates paper's plate, 1250 x 625 nodes at m = 4. */
-enum { COLUMNS = 1250, ROWS = 625, PATCHES = 8 };
-static const double SPACING = 0.04e-3, HORIZON = 0.16e-3;
+/* The plane set: the plates paper's plate, 1250 x 625 nodes at m = 4. The solid one: the block of
+ * cases/bench/lammps_pmb.in, 60^3 nodes at m = 3.015. */
+enum { COLUMNS = 1250, ROWS = 625, PATCHES = 8, EDGE = 60 };
+static const double SPACING = 0.04e-3;
 
-enum where { JITTER_PATCHES, JITTER_ALL };
+enum where { JITTER_PATCHES, JITTER_ALL, BLOCK };
+
+/* One measurement. */
+struct set {
+    enum where where;
+    int threads, mixed;
+    double rate;           /* out: directed bond updates a second */
+    double bytes_per_node; /* out */
+};
 
 /* A number in [-1, 1] that depends on k alone. */
 static double noise(uint64_t k) {
@@ -41,7 +50,20 @@ static int in_patch(double x, double y) {
     return 0;
 }
 
-static struct kr_nodes *make_nodes(enum where where) {
+static struct kr_nodes *make_block(void) {
+    struct kr_nodes *nodes = kr_nodes_create(3, (size_t)EDGE * EDGE * EDGE);
+    nodes->spacing = SPACING;
+    for (size_t i = 0; i < nodes->n; i++) {
+        nodes->position[3 * i] = SPACING * (double)(i % EDGE);
+        nodes->position[3 * i + 1] = SPACING * (double)(i / EDGE % EDGE);
+        nodes->position[3 * i + 2] = SPACING * (double)(i / EDGE / EDGE);
+        nodes->volume[i] = SPACING * SPACING * SPACING;
+        nodes->factor[i] = 1 + 0.01 * noise(7 * i);
+    }
+    return nodes;
+}
+
+static struct kr_nodes *make_plate(enum where where) {
     struct kr_nodes *nodes = kr_nodes_create(2, (size_t)COLUMNS * ROWS);
     nodes->spacing = SPACING;
     for (size_t i = 0; i < nodes->n; i++) {
@@ -59,14 +81,20 @@ static struct kr_nodes *make_nodes(enum where where) {
     return nodes;
 }
 
-static struct kr_body *make_body(const struct kr_nodes *nodes, int threads) {
-    omp_set_num_threads(threads);
-    struct kr_material pmma = kr_material_make(kr_law_named("pmb"), KR_PLANE_STRESS, 3.24e9, 1190,
-                                               200, HORIZON);
-    struct kr_body *body = kr_body_create(kr_bonds_create(nodes, &pmma, KR_PARTIAL_VOLUME_HHB));
+static struct kr_body *make_body(const struct kr_nodes *nodes, const struct set *set) {
+    const int solid = set->where == BLOCK;
+    omp_set_num_threads(set->threads);
+    struct kr_material pmma =
+        kr_material_make(kr_law_named("pmb"), solid ? KR_SOLID : KR_PLANE_STRESS, 3.24e9, 1190, 200,
+                         (solid ? 3.015 : 4) * SPACING);
+    struct kr_bonds *bonds = kr_bonds_create(
+        nodes, &pmma, solid ? KR_PARTIAL_VOLUME_NONE : KR_PARTIAL_VOLUME_HHB);
+    struct kr_body *body = kr_body_create(bonds);
+    if (set->mixed)
+        kr_body_mix(body);
     for (size_t i = 0; i < body->n; i++)
-        for (int d = 0; d < 2; d++)
-            body->u[d][i] = 1e-4 * SPACING * noise(2 * i + (size_t)d);
+        for (int d = 0; d < body->dim; d++)
+            body->u[d][i] = 1e-4 * SPACING * noise(3 * i + (size_t)d);
     return body;
 }
 
@@ -90,37 +118,73 @@ static void put(FILE *file, const char *name, double value, const char *unit) {
     kr_say("  %-28s %10.4g %s", name, value, unit);
 }
 
-static double measure(enum where where, int threads, double *bytes_per_node) {
-    struct kr_nodes *nodes = make_nodes(where);
+static void measure(struct set *set) {
+    struct kr_nodes *nodes = set->where == BLOCK ? make_block() : make_plate(set->where);
     size_t before = kr_memory_bytes();
-    struct kr_body *body = make_body(nodes, threads);
+    struct kr_body *body = make_body(nodes, set);
     struct kr_bonds *bonds = body->bonds;
-    double rate = rate_of(body);
-    *bytes_per_node = (double)(kr_memory_bytes() - before) / (double)nodes->n;
+    set->rate = rate_of(body);
+    set->bytes_per_node = (double)(kr_memory_bytes() - before) / (double)nodes->n;
     kr_body_free(body);
     kr_bonds_free(bonds);
     kr_nodes_free(nodes);
-    return rate;
+}
+
+/* The time of LAMMPS' loop in its log [s]; NAN where it cannot be read. */
+static double lammps_time(const char *path) {
+    FILE *log = fopen(path, "r");
+    char line[512];
+    double seconds = NAN;
+    while (log && fgets(line, sizeof line, log))
+        sscanf(line, "Loop time of %lf", &seconds);
+    if (log)
+        fclose(log);
+    return seconds;
+}
+
+static struct set measure_and_put(FILE *file, const char *name, enum where where, int threads,
+                                  int mixed) {
+    struct set set = {.where = where, .threads = threads, .mixed = mixed};
+    measure(&set);
+    put(file, name, set.rate, "1/s");
+    return set;
+}
+
+static void measure_all(FILE *file, const char *log) {
+    const int two = omp_get_num_procs() > 1;
+    struct set plane = measure_and_put(file, "pmb_2d_double_1", JITTER_PATCHES, 1, 0);
+    put(file, "memory_per_node_2d_B", plane.bytes_per_node, "B");
+    if (two) {
+        struct set both = measure_and_put(file, "pmb_2d_double_2", JITTER_PATCHES, 2, 0);
+        put(file, "pmb_2d_threads_2_over_1", both.rate / plane.rate, "1");
+    }
+    measure_and_put(file, "pmb_2d_mixed_1", JITTER_PATCHES, 1, 1);
+    measure_and_put(file, "pmb_2d_general_double_1", JITTER_ALL, 1, 0);
+    struct set solid = measure_and_put(file, "pmb_3d_double_1", BLOCK, 1, 0);
+    if (two)
+        measure_and_put(file, "pmb_3d_double_2", BLOCK, 2, 0);
+    measure_and_put(file, "pmb_3d_mixed_1", BLOCK, 1, 1);
+    /* Bonds and steps of cases/bench/lammps_pmb.in. */
+    double lammps = 24866488.0 * 200 / lammps_time(log);
+    if (isfinite(lammps)) {
+        put(file, "lammps_3d_double_1", lammps, "1/s");
+        put(file, "pmb_3d_over_lammps", solid.rate / lammps, "1");
+    } else {
+        kr_say("  no log of LAMMPS at %s: no comparison with it", log);
+    }
 }
 
 int main(int argc, char **argv) {
     kr_error_program("kirsch-bench");
-    if (argc != 2)
-        kr_stop(KR_EXIT_INPUT, "expected one argument, the CSV file to write");
+    if (argc != 3)
+        kr_stop(KR_EXIT_INPUT, "expected the CSV file to write and the log of LAMMPS to read");
     FILE *file = fopen(argv[1], "w");
     if (!file)
         kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", argv[1], strerror(errno));
     fprintf(file, "name,value,unit\n");
-    double bytes, two = NAN, one = measure(JITTER_PATCHES, 1, &bytes);
-    kr_say("loop '%s', %d x %d nodes", kr_kernel_best()->name, COLUMNS, ROWS);
-    put(file, "pmb_2d_double_1", one, "1/s");
-    put(file, "memory_per_node_2d_B", bytes, "B");
-    if (omp_get_num_procs() > 1) {
-        two = measure(JITTER_PATCHES, 2, &bytes);
-        put(file, "pmb_2d_double_2", two, "1/s");
-        put(file, "pmb_2d_threads_2_over_1", two / one, "1");
-    }
-    put(file, "pmb_2d_general_double_1", measure(JITTER_ALL, 1, &bytes), "1/s");
+    kr_say("loop '%s', plate of %d x %d nodes, block of %d^3", kr_kernel_best()->name, COLUMNS, ROWS,
+           EDGE);
+    measure_all(file, argv[2]);
     if (fclose(file))
         kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", argv[1], strerror(errno));
     return KR_EXIT_OK;

@@ -44,9 +44,9 @@ struct step {
 static const struct step steps[] = {
     {"kirsch-pores", "geometry", {NULL}, {"pores.txt"}},
     {"kirsch-mesh", "geometry mesh nodes", {"pores.txt"}, {"plate.msh"}},
-    {"kirsch-nodes", "nodes material loads no_fail", {"plate.msh"}, {"plate.nodes.h5"}},
+    {"kirsch-nodes", "nodes material loads stages no_fail", {"plate.msh"}, {"plate.nodes.h5"}},
     {"kirsch-solve",
-     "title nodes material cracks initial loads no_fail solver output",
+     "title nodes material cracks initial loads no_fail stages solver output",
      {"plate.nodes.h5"},
      {"run.h5", "run/crack.h5", "history.csv"}},
     {"kirsch-track",

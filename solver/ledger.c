@@ -5,14 +5,10 @@
  */
 #include "ledger.h"
 
-#include "base/error.h"
 #include "base/memory.h"
 
-#include <errno.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 const char *kr_ledger_unit(int dim) {
     return dim == 2 ? "J/m" : "J";
@@ -71,84 +67,21 @@ void kr_ledger_update(struct kr_ledger *ledger, struct kr_boundary *boundary, st
 
 void kr_ledger_begin(struct kr_ledger *ledger, struct kr_boundary *boundary, struct kr_body *body,
                      const struct kr_crack *crack, double dt) {
+    double before = ledger->balance; /* of the stages before */
     kr_ledger_update(ledger, boundary, body, crack, 0, dt, 1);
-    ledger->external = ledger->kinetic + ledger->strain + ledger->fracture;
-    ledger->most_external = fabs(ledger->external);
+    ledger->external = ledger->kinetic + ledger->strain + ledger->fracture + before;
+    ledger->most_external = fmax(ledger->most_external, fabs(ledger->external));
     ledger->power = kr_boundary_power(boundary, body, 0, dt, 1);
 }
 
-/* ---- history.csv ---- */
-
-struct kr_history {
-    FILE *file;
-    char *path;
-    int dim;
-};
-
-static void check_written(struct kr_history *h) {
-    if (fflush(h->file) || ferror(h->file))
-        kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s; free some space and run again",
-                h->path, strerror(errno));
-}
-
-/* Loads on the same set that come before load k: their columns must differ in name. */
-static size_t loads_before(const struct kr_boundary *boundary, size_t k) {
-    size_t before = 0;
-    for (size_t m = 0; m < k; m++)
-        before += !strcmp(kr_boundary_set(boundary, m), kr_boundary_set(boundary, k));
-    return before;
-}
-
-long kr_history_bytes(const struct kr_history *h) {
-    return ftell(h->file);
-}
-
-struct kr_history *kr_history_open(const char *path, const struct kr_boundary *boundary, int dim,
-                                   long bytes) {
-    struct kr_history *h = KR_NEW(struct kr_history, 1);
-    *h = (struct kr_history){.path = kr_text_copy(path), .dim = dim};
-    if (bytes > 0 && truncate(path, bytes))
-        kr_stop(KR_EXIT_STORAGE, "%s: cannot be cut back to %ld bytes: %s", path, bytes,
-                strerror(errno));
-    h->file = fopen(path, bytes > 0 ? "r+" : "w");
-    if (!h->file || fseek(h->file, bytes, SEEK_SET))
-        kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", path, strerror(errno));
-    if (bytes > 0)
-        return h;
-    static const char *const name[] = {"kinetic", "strain", "fracture", "external_work", "balance"};
-    fprintf(h->file, "step,time [s]");
-    for (size_t k = 0; k < sizeof name / sizeof *name; k++)
-        fprintf(h->file, ",%s [%s]", name[k], kr_ledger_unit(dim));
-    fprintf(h->file, ",broken_bonds");
-    for (size_t k = 0; k < kr_boundary_count(boundary); k++) {
-        char again[32] = "";
-        size_t before = loads_before(boundary, k);
-        if (before)
-            snprintf(again, sizeof again, " (%zu)", before + 1);
-        for (int d = 0; d < dim; d++)
-            fprintf(h->file, ",reaction_%c %s%s [%s]", "xyz"[d], kr_boundary_set(boundary, k), again,
-                    dim == 2 ? "N/m" : "N");
-    }
-    fprintf(h->file, "\n");
-    check_written(h);
-    return h;
-}
-
-void kr_history_write(struct kr_history *h, const struct kr_ledger *ledger,
-                      const struct kr_boundary *boundary, const struct kr_crack *crack, long step,
-                      double t) {
-    fprintf(h->file, "%ld,%.9g,%.12g,%.12g,%.12g,%.12g,%.6g,%zu", step, t, ledger->kinetic,
-            ledger->strain, ledger->fracture, ledger->external, ledger->balance, crack->count);
-    for (size_t k = 0; k < kr_boundary_count(boundary); k++)
-        for (int d = 0; d < h->dim; d++)
-            fprintf(h->file, ",%.9g", kr_boundary_reaction(boundary, k, d));
-    fprintf(h->file, "\n");
-    check_written(h);
-}
-
-void kr_history_close(struct kr_history *h) {
-    if (fclose(h->file))
-        kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", h->path, strerror(errno));
-    kr_free(h->path);
-    kr_free(h);
+void kr_ledger_rest(struct kr_ledger *ledger, struct kr_body *body, const struct kr_crack *crack,
+                    double work) {
+    ledger->external += work;
+    ledger->most_external = fmax(ledger->most_external, fabs(ledger->external));
+    ledger->power = ledger->kinetic = 0;
+    for (int d = 0; d < body->dim; d++)
+        memset(ledger->v[d], 0, body->n * sizeof(double));
+    ledger->strain = kr_body_energy(body);
+    ledger->fracture = crack->energy;
+    ledger->balance = ledger->external - ledger->strain - ledger->fracture;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * The energy ledger: what went in, what is there, what fracture took; and history.csv.
+ * The energy ledger: what went in, what is there, what fracture took.
  */
 #ifndef KR_LEDGER_H
 #define KR_LEDGER_H
@@ -31,8 +31,8 @@ void kr_ledger_free(struct kr_ledger *ledger);
 void kr_ledger_step(struct kr_ledger *ledger, struct kr_boundary *boundary,
                     const struct kr_body *body, double t, double dt);
 
-/** Begin at time 0, forces included: what a sudden motion of the supports (kr_boundary_start) has put
- *  in already is external work. */
+/** Begin a stage at its time 0, forces included: what a sudden motion of the supports
+ *  (kr_boundary_start) has put in already is external work. */
 void kr_ledger_begin(struct kr_ledger *ledger, struct kr_boundary *boundary, struct kr_body *body,
                      const struct kr_crack *crack, double dt);
 
@@ -40,18 +40,9 @@ void kr_ledger_begin(struct kr_ledger *ledger, struct kr_boundary *boundary, str
 void kr_ledger_update(struct kr_ledger *ledger, struct kr_boundary *boundary, struct kr_body *body,
                       const struct kr_crack *crack, double t, double dt, int first);
 
-struct kr_history; /* Opaque: the open history.csv. */
-
-/** Begin history.csv with its header; or, with bytes > 0, go on behind so many bytes of it and forget
- *  the rest. Stops (exit 3) where it cannot be written. */
-struct kr_history *kr_history_open(const char *path, const struct kr_boundary *boundary, int dim,
-                                   long bytes);
-
-/** How long the file is, all written. */
-long kr_history_bytes(const struct kr_history *history);
-void kr_history_write(struct kr_history *history, const struct kr_ledger *ledger,
-                      const struct kr_boundary *boundary, const struct kr_crack *crack, long step,
-                      double t);
-void kr_history_close(struct kr_history *history);
+/** The ledger of a body at rest: `work` more was done on it; energies as they are. What is missing in the
+ *  balance has gone into motion that came to rest. */
+void kr_ledger_rest(struct kr_ledger *ledger, struct kr_body *body, const struct kr_crack *crack,
+                    double work);
 
 #endif

@@ -16,8 +16,10 @@
 #include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 struct kr_output {
     const struct kr_case *c;      /* not owned */
@@ -25,8 +27,9 @@ struct kr_output {
     char *deck_text;
     size_t corners; /* length of the topology */
     double *row;    /* (n x 3) room */
+    int open;       /* outputs are not known beforehand */
     size_t n_due, room;
-    struct kr_xdmf_step *due; /* all outputs of the run */
+    struct kr_xdmf_step *due; /* all outputs of the run; `open`: those written */
 };
 
 /* ---- run.h5 ---- */
@@ -64,15 +67,24 @@ static void write_mesh(struct kr_output *o, struct kr_h5 *file) {
     kr_free(topology);
 }
 
-static void write_links(const struct kr_output *o, struct kr_h5 *file) {
-    kr_h5_link(file, "/crack", "run/crack.h5");
+static void write_links(const struct kr_output *o, struct kr_h5 *file, const char *group,
+                        const char *folder) {
     for (size_t k = 0; k < o->n_due; k++) {
-        char *name = kr_text("/step/%06ld", o->due[k].step);
-        char *other = kr_text("run/%06ld.h5", o->due[k].step);
+        char *name = kr_text("%s/%06ld", group, o->due[k].step);
+        char *other = kr_text("%s%06ld.h5", folder, o->due[k].step);
         kr_h5_link(file, name, other);
         kr_free(name);
         kr_free(other);
     }
+}
+
+/* run/steps.h5: links to the outputs so far, for a run that could not tell them beforehand. */
+static void write_steps(const struct kr_output *o) {
+    char *path = kr_case_file(o->c, "run/steps.h5");
+    struct kr_h5 *file = kr_h5_create(path, "kirsch steps", 1);
+    write_links(o, file, "", "");
+    kr_h5_close(file);
+    kr_free(path);
 }
 
 static void write_run(struct kr_output *o, const struct kr_bonds *bonds, double dt) {
@@ -84,12 +96,21 @@ static void write_run(struct kr_output *o, const struct kr_bonds *bonds, double 
     write_mesh(o, file);
     kr_h5_write_double(file, "/nodes/position", nodes->n, (size_t)nodes->dim, nodes->position);
     kr_h5_write_double(file, "/nodes/volume", nodes->n, 0, nodes->volume);
-    write_links(o, file);
+    kr_h5_link(file, "/crack", "run/crack.h5");
+    if (o->open)
+        kr_h5_link(file, "/step", "run/steps.h5");
+    else
+        write_links(o, file, "/step", "run/");
     kr_h5_close(file);
     kr_free(path);
 }
 
 /* ---- the folder of outputs ---- */
+
+static void add_due(struct kr_output *o, long step, double t) {
+    KR_GROW(o->due, o->n_due, o->room);
+    o->due[o->n_due++] = (struct kr_xdmf_step){step, t};
+}
 
 static void find_due(struct kr_output *o, double dt, long steps) {
     const struct kr_schedule schedule = kr_schedule_of(o->c->output_every, &o->c->output_at);
@@ -97,8 +118,7 @@ static void find_due(struct kr_output *o, double dt, long steps) {
         double t = (double)step * dt;
         if (step && step < steps && !kr_schedule_due(&schedule, t, dt))
             continue;
-        KR_GROW(o->due, o->n_due, o->room);
-        o->due[o->n_due++] = (struct kr_xdmf_step){step, t};
+        add_due(o, step, t);
     }
 }
 
@@ -121,15 +141,37 @@ static void clear_folder(const struct kr_case *c, int keep) {
     kr_free(folder);
 }
 
+/* What an `open` run had written before it was resumed; what came after its checkpoint comes again. */
+static void find_written(struct kr_output *o, long done) {
+    char *path = kr_case_file(o->c, "run/steps.h5");
+    size_t count = 0;
+    struct kr_h5 *file = access(path, R_OK) ? NULL : kr_h5_open(path, "kirsch steps", 1);
+    char **name = file ? kr_h5_list(file, "/", &count) : NULL;
+    for (size_t k = 0; k < count; k++) {
+        long step = atol(name[k]);
+        if (step < done)
+            add_due(o, step, kr_h5_get_double(file, name[k], "time"));
+        kr_free(name[k]);
+    }
+    kr_free(name);
+    if (file)
+        kr_h5_close(file);
+    kr_free(path);
+}
+
 struct kr_output *kr_output_create(const struct kr_case *c, const struct kr_nodes *nodes,
-                                   const struct kr_bonds *bonds, double dt, long steps, int resumed,
+                                   const struct kr_bonds *bonds, struct kr_output_plan plan,
                                    const char *deck_text) {
     struct kr_output *o = KR_NEW(struct kr_output, 1);
-    *o = (struct kr_output){.c = c, .nodes = nodes, .deck_text = kr_text_copy(deck_text)};
+    *o = (struct kr_output){
+        .c = c, .nodes = nodes, .deck_text = kr_text_copy(deck_text), .open = plan.open};
     o->row = KR_NEW(double, nodes->n * 3);
-    find_due(o, dt, steps);
-    clear_folder(c, resumed);
-    write_run(o, bonds, dt);
+    if (!plan.open)
+        find_due(o, plan.dt, plan.steps);
+    clear_folder(c, plan.resumed);
+    if (plan.open && plan.resumed)
+        find_written(o, plan.done);
+    write_run(o, bonds, plan.dt);
     return o;
 }
 
@@ -177,11 +219,11 @@ static void write_fields(struct kr_output *o, const struct kr_body *body,
 }
 
 static void write_crack(const struct kr_output *o, const struct kr_ledger *ledger,
-                        const struct kr_crack *crack, long step) {
+                        const struct kr_crack *crack, long step, int last) {
     char *path = kr_case_file(o->c, "run/crack.h5");
     struct kr_h5 *file = kr_h5_create(path, "kirsch crack", 1);
     kr_h5_set_int64(file, "/", "steps", step);
-    kr_h5_set_int64(file, "/", "finished", step == o->due[o->n_due - 1].step);
+    kr_h5_set_int64(file, "/", "finished", last);
     kr_h5_set_double(file, "/", "external_work", ledger->external);
     kr_h5_set_double(file, "/", "kinetic_energy", ledger->kinetic);
     kr_h5_set_double(file, "/", "strain_energy", ledger->strain);
@@ -206,8 +248,12 @@ static void write_xdmf(const struct kr_output *o, long step) {
 
 void kr_output_write(struct kr_output *o, const struct kr_body *body,
                      const struct kr_ledger *ledger, const struct kr_crack *crack, long step,
-                     double t) {
+                     double t, int last) {
     write_fields(o, body, ledger, step, t);
-    write_crack(o, ledger, crack, step);
+    if (o->open) {
+        add_due(o, step, t);
+        write_steps(o);
+    }
+    write_crack(o, ledger, crack, step, last);
     write_xdmf(o, step);
 }

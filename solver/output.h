@@ -19,24 +19,29 @@
 
 struct kr_output; /* Opaque. Implemented in output.c. */
 
-/** Write run.h5 into the case's folder.
- *
- *  in  steps    of the whole run; with dt and the case's output times they tell the outputs
- *  in  resumed  outputs of the earlier part of the run are kept; else all old ones are removed
- *  Stops (exit 3) where it cannot be written.
- */
+/** What is known of a run's outputs when it begins. */
+struct kr_output_plan {
+    double dt;   /* s */
+    long steps;  /* of the whole run; with dt and the case's output times they tell the outputs ... */
+    int open;    /* ... but not with stages: then run.h5 links to run/steps.h5, written anew each time */
+    int resumed; /* outputs of the earlier part of the run are kept; else all old ones are removed */
+    long done;   /* steps done before it was resumed */
+};
+
+/** Write run.h5 into the case's folder. Stops (exit 3) where it cannot be written. */
 struct kr_output *kr_output_create(const struct kr_case *c, const struct kr_nodes *nodes,
-                                   const struct kr_bonds *bonds, double dt, long steps, int resumed,
+                                   const struct kr_bonds *bonds, struct kr_output_plan plan,
                                    const char *deck_text);
 void kr_output_free(struct kr_output *output);
 
-/** Whether an output is due at this step. The first and the last step always are. */
+/** Whether an output is due at this step, in a run without stages. The first and the last step always
+ *  are. */
 int kr_output_due(const struct kr_output *output, long step);
 
 /** Write the fields at time t (velocities from ledger->v, energies as of kr_ledger_update), the
- *  crack record so far, and run.xdmf. The last step marks the run as finished. */
+ *  crack record so far, and run.xdmf. last: the run is finished. */
 void kr_output_write(struct kr_output *output, const struct kr_body *body,
                      const struct kr_ledger *ledger, const struct kr_crack *crack, long step,
-                     double t);
+                     double t, int last);
 
 #endif

@@ -245,6 +245,7 @@ size_t kr_precrack_cut(const struct kr_precrack *crack, struct kr_bonds *b, int 
         }
     }
     b->count -= ends;
+    kr_bonds_find_twins(b);
     return ends / 2;
 }
 

@@ -9,6 +9,7 @@
 #include "base/progress.h"
 #include "initial.h"
 #include "precrack.h"
+#include "rest.h"
 #include "time_step.h"
 #include "wave.h"
 #include "weight.h"
@@ -104,21 +105,78 @@ static void report_drift(struct kr_body *body, double width) {
            "so momentum drifts", hypot(hypot(net[0], net[1]), net[2]) / all);
 }
 
-/* dt as the deck gives it, or the safe one, shortened a little so that whole steps reach the end. */
-static void choose_time_step(struct kr_run *run, struct kr_deck *deck) {
+/* The largest step in time: as the deck gives it, or the safe one. */
+static double choose_time_step(struct kr_run *run, struct kr_deck *deck,
+                               struct kr_time_step *found) {
     const struct kr_case *c = run->c;
-    struct kr_time_step found = kr_time_step_find(run->body, run->nodes->spacing);
-    double dt = c->time_step > 0 ? c->time_step : c->safety_factor * found.stable;
-    if (dt > found.stable)
+    *found = kr_time_step_find(run->body, run->nodes->spacing);
+    double dt = c->time_step > 0 ? c->time_step : c->safety_factor * found->stable;
+    if (dt > found->stable)
         kr_deck_fault(deck, &c->time_step,
                       "found %.4g us, but steps above %.4g us are unstable; leave it out to have %.4g us",
-                      1e6 * dt, 1e6 * found.stable, 1e6 * c->safety_factor * found.stable);
-    run->steps = (long)ceil(c->end_time / dt * (1 - 1e-9));
-    run->dt = c->end_time / (double)run->steps;
+                      1e6 * dt, 1e6 * found->stable, 1e6 * c->safety_factor * found->stable);
+    return dt;
+}
+
+/* A stage that moves: steps shortened a little so that whole ones reach the end. */
+static void plan_moving(struct kr_run *run, struct kr_stage *stage, double end, double dt,
+                        const struct kr_time_step *found) {
+    stage->end = end;
+    stage->steps = (long)ceil(end / dt * (1 - 1e-9));
+    stage->dt = end / (double)stage->steps;
+    run->dt = stage->dt;
     kr_say("  time step %.5g us, %ld steps (stable below %.5g us by power iteration in %d rounds; "
            "classical bound %.5g us, Courant %.5g us)",
-           1e6 * run->dt, run->steps, 1e6 * found.stable, found.iterations, 1e6 * found.classical,
-           1e6 * found.courant);
+           1e6 * stage->dt, stage->steps, 1e6 * found->stable, found->iterations,
+           1e6 * found->classical, 1e6 * found->courant);
+}
+
+static void plan_static(struct kr_stage *stage) {
+    const struct kr_case_steps *steps = stage->load_steps->item;
+    stage->steps = stage->load_steps->count ? 0 : 1;
+    stage->end = stage->load_steps->count ? 0 : 1;
+    for (size_t k = 0; k < stage->load_steps->count; k++) {
+        stage->steps += (long)steps[k].count;
+        stage->end += (double)steps[k].count * steps[k].size;
+    }
+    kr_say("  static stage of %ld load steps", stage->steps);
+}
+
+static void plan_stages(struct kr_run *run, struct kr_deck *deck) {
+    const struct kr_case *c = run->c;
+    const struct kr_case_stage *from = c->stages.item;
+    struct kr_time_step found;
+    double dt = choose_time_step(run, deck, &found);
+    run->dt = run->safe_step = dt;
+    for (size_t k = 0; k < run->n_stages; k++) {
+        struct kr_stage *stage = &run->stage[k];
+        *stage = (struct kr_stage){.kind = KR_STAGE_DYNAMIC, .breaks = 1};
+        if (run->staged)
+            *stage = (struct kr_stage){.kind = from[k].kind,
+                                       .damping = from[k].damping,
+                                       .least_step = from[k].least_step,
+                                       .end_below = from[k].end_below,
+                                       .tolerance = from[k].tolerance,
+                                       .breaks = from[k].breaks,
+                                       .load_steps = &from[k].steps};
+        if (stage->kind == KR_STAGE_STATIC)
+            plan_static(stage);
+        else
+            plan_moving(run, stage, run->staged ? from[k].end_time : c->end_time,
+                        stage->kind == KR_STAGE_RELAXATION ? KR_REST_STEP * dt : dt, &found);
+        run->steps += stage->steps;
+    }
+}
+
+static void create_boundaries(struct kr_run *run, struct kr_deck *deck) {
+    const struct kr_case_stage *from = run->c->stages.item;
+    run->staged = run->c->stages.count > 0;
+    run->n_stages = run->staged ? run->c->stages.count : 1;
+    run->stage = KR_NEW(struct kr_stage, run->n_stages);
+    run->boundary = KR_NEW(struct kr_boundary *, run->n_stages);
+    for (size_t k = 0; k < run->n_stages; k++)
+        run->boundary[k] = kr_boundary_create(
+            deck, kr_case_loads(run->c, run->staged ? &from[k] : NULL), run->nodes);
 }
 
 struct kr_run *kr_run_create(struct kr_deck *deck, const struct kr_case *c) {
@@ -136,7 +194,9 @@ struct kr_run *kr_run_create(struct kr_deck *deck, const struct kr_case *c) {
     cut_precracks(run, deck);
     mark_no_fail(c, run->nodes, run->bonds);
     run->body = kr_body_create(run->bonds);
-    run->boundary = kr_boundary_create(deck, c, run->nodes);
+    create_boundaries(run, deck);
+    if (c->precision == KR_MIXED)
+        kr_body_mix(run->body);
     kr_deck_finish(deck);
     struct kr_bonds_size size = kr_bonds_size(run->bonds);
     kr_say("  %zu nodes, %zu bonds (%.1f a node), %zu cut by pre-cracks; families in %.2f s", run->nodes->n,
@@ -147,7 +207,7 @@ struct kr_run *kr_run_create(struct kr_deck *deck, const struct kr_case *c) {
            100 * size.lattice_share, (double)kr_memory_bytes() / (double)run->nodes->n);
     if (partial_volume == KR_PARTIAL_VOLUME_HHB_ONE_SIDED)
         report_drift(run->body, c->width);
-    choose_time_step(run, deck);
+    plan_stages(run, deck);
     kr_deck_finish(deck);
     kr_initial_set(c, run->nodes, run->body);
     kr_free(path);
@@ -155,7 +215,10 @@ struct kr_run *kr_run_create(struct kr_deck *deck, const struct kr_case *c) {
 }
 
 void kr_run_free(struct kr_run *run) {
-    kr_boundary_free(run->boundary);
+    for (size_t k = 0; k < run->n_stages; k++)
+        kr_boundary_free(run->boundary[k]);
+    kr_free(run->boundary);
+    kr_free(run->stage);
     kr_body_free(run->body);
     kr_bonds_free(run->bonds);
     kr_nodes_free(run->nodes);

@@ -11,126 +11,134 @@
 #include "run.h"
 
 #include "base/error.h"
-#include "base/memory.h"
 #include "base/progress.h"
-#include "checkpoint.h"
-#include "crack.h"
 #include "interrupt.h"
-#include "ledger.h"
-#include "output.h"
-#include "schedule.h"
+#include "records.h"
+#include "rest.h"
 #include "watch.h"
 
-/* What is recorded while the loop runs. */
-struct records {
-    struct kr_crack *crack;
-    struct kr_ledger *ledger;
-    struct kr_history *history;
-    struct kr_output *output;
-    struct kr_schedule history_due;
-    struct kr_checkpoint at;
-    double saved; /* clock of the last checkpoint */
+#include <math.h>
+#include <string.h>
+
+/* When a stage that moves writes history and, in a run with stages, outputs. */
+struct due {
+    struct kr_schedule history, output;
 };
 
-/* Returns the step to begin with. */
-static long records_open(struct kr_run *run, const char *deck_text, int resume,
-                         struct records *r) {
+static struct due due_of(const struct kr_run *run, const struct kr_stage *stage) {
     const struct kr_case *c = run->c;
-    char *path = kr_case_file(c, "history.csv");
-    *r = (struct records){
-        .crack = kr_crack_create(run->bonds, c->damage_threshold),
-        .ledger = kr_ledger_create(run->body),
-        .history_due = kr_schedule_every(c->history_every > 0 ? c->history_every : 20 * run->dt),
-        .saved = kr_progress_clock(),
-    };
-    r->at = (struct kr_checkpoint){.steps = run->steps,
-                                   .dt = run->dt,
-                                   .deck_text = deck_text,
-                                   .body = run->body,
-                                   .ledger = r->ledger,
-                                   .crack = r->crack};
-    if (resume) {
-        kr_checkpoint_read(c, &r->at);
-        kr_say("  resumed at step %ld, t = %.4g us", r->at.step, 1e6 * (double)r->at.step * run->dt);
-    } else {
-        kr_checkpoint_remove(c);
-        kr_boundary_start(run->boundary, run->body, run->dt);
+    return (struct due){
+        .history = kr_schedule_every(c->history_every > 0 ? c->history_every : 20 * stage->dt),
+        .output = kr_schedule_of(c->output_every, &c->output_at)};
+}
+
+static int output_due(const struct kr_records *r, const struct due *due, long step, double t) {
+    const struct kr_stage *stage = &r->run->stage[r->at.stage];
+    if (!r->run->staged)
+        return kr_output_due(r->output, step);
+    return step == 0 || step == stage->steps || kr_schedule_due(&due->output, t, stage->dt);
+}
+
+/* The first step of a later stage is the last of the one before, and recorded there. `resting`: a
+ * relaxation ends at this step. */
+static void record(struct kr_records *r, const struct due *due, long step, double t, int resting) {
+    struct kr_run *run = r->run;
+    const double dt = run->stage[r->at.stage].dt;
+    int output = output_due(r, due, step, t) || resting;
+    if ((!output && !kr_schedule_due(&due->history, t, dt)) || (step == 0 && r->at.stage > 0))
+        return;
+    int last = r->at.stage + 1 == run->n_stages && (step == run->stage[r->at.stage].steps || resting);
+    kr_ledger_update(r->ledger, run->boundary[r->at.stage], run->body, r->crack, t, dt, step == 0);
+    kr_watch_check(run->body, r->ledger, step, t, dt);
+    kr_records_write(r, output, last, step, t);
+}
+
+/* Forces at time t of the stage, loads and damping included; bonds may break. Where two stages meet, what
+ * is past s0 breaks in the second: the last half kick of the first is with the bond, the first half
+ * kick of the second without it, as (13) has it within a stage. */
+static void pull(struct kr_run *run, struct kr_records *r, const struct kr_stage *stage, long step,
+                 double t) {
+    struct kr_body *body = run->body;
+    int meets_next = step == stage->steps && r->at.stage + 1 < run->n_stages;
+    int breaks = stage->breaks && !meets_next;
+    kr_body_force(body, breaks);
+    if (breaks && step == 0 && r->at.stage > 0 && body->broken.count)
+        kr_body_force(body, 0);
+    kr_boundary_push(run->boundary[r->at.stage], body, t);
+    if (stage->damping > 0)
+        kr_body_damp(body, stage->damping);
+    if (breaks)
+        kr_records_crack(r, step, t);
+}
+
+/* Velocities up to the time of the forces, where the next stage finds them. */
+static void end_stage(struct kr_run *run, struct kr_records *r, long step, double t) {
+    const size_t size = run->body->n * sizeof(double);
+    for (int d = 0; d < run->body->dim; d++)
+        memcpy(run->body->v[d], r->ledger->v[d], size);
+    kr_records_next_stage(r, step, t);
+}
+
+static void end_relaxation(struct kr_rest *rest, const struct kr_stage *stage) {
+    if (rest->residual > stage->tolerance)
+        kr_warn("the relaxation ended before the body was at rest: residual %.1e, wanted %.1e; give it "
+                "more end_time", rest->residual, stage->tolerance);
+    kr_rest_free(rest);
+}
+
+/* THE TIME LOOP, over one stage. A relaxation (theory.md (27)) ends where the body rests. */
+static void run_moving(struct kr_run *run, struct kr_records *r) {
+    struct kr_body *body = run->body;
+    const struct kr_stage *stage = &run->stage[r->at.stage];
+    struct kr_boundary *boundary = run->boundary[r->at.stage];
+    const struct due due = due_of(run, stage);
+    const double dt = stage->dt;
+    const long first = r->at.step;
+    struct kr_progress progress = kr_progress_begin("steps", (double)first, (double)stage->steps);
+    struct kr_rest *rest = stage->kind == KR_STAGE_RELAXATION ? kr_rest_create(body) : NULL;
+    long step = first;
+    if (first == 0)
+        kr_boundary_start(boundary, body, dt);
+    for (;; step++) {
+        const double t = (double)step * dt;
+        pull(run, r, stage, step, t);
+        if (step == 0)
+            kr_ledger_begin(r->ledger, boundary, body, r->crack, dt);
+        else
+            kr_ledger_step(r->ledger, boundary, body, t, dt);
+        int resting = rest && kr_rest_step(rest, boundary, t, stage->end, stage->tolerance);
+        record(r, &due, step, t, resting);
+        if (step == stage->steps || resting)
+            break;
+        kr_boundary_hold(boundary, body, t, dt);
+        kr_body_advance(body, step == 0 ? 0.5 * dt : dt, dt);
+        kr_records_save(r, step + 1);
+        kr_progress_show(&progress, (double)step,
+                         "t %.4g us, %zu bonds broken, %.3g %s of work, balance %.1e",
+                         1e6 * (r->at.began + t), r->crack->count, r->ledger->external,
+                         kr_ledger_unit(body->dim), r->ledger->balance);
     }
-    r->output =
-        kr_output_create(c, run->nodes, run->bonds, run->dt, run->steps, resume, deck_text);
-    r->history = kr_history_open(path, run->boundary, run->body->dim, r->at.history);
-    kr_free(path);
-    return r->at.step;
-}
-
-static void records_close(struct records *r) {
-    kr_output_free(r->output);
-    kr_history_close(r->history);
-    kr_crack_free(r->crack);
-    kr_ledger_free(r->ledger);
-}
-
-static void record(struct kr_run *run, struct records *r, long step, double t) {
-    int output = kr_output_due(r->output, step);
-    if (!output && !kr_schedule_due(&r->history_due, t, run->dt))
-        return;
-    kr_ledger_update(r->ledger, run->boundary, run->body, r->crack, t, run->dt, step == 0);
-    kr_history_write(r->history, r->ledger, run->boundary, r->crack, step, t);
-    kr_watch_check(run->body, r->ledger, step, t, run->dt);
-    if (output)
-        kr_output_write(r->output, run->body, r->ledger, r->crack, step, t);
-}
-
-/* A checkpoint before the step `next`, where time or a signal asks for one; stops where asked to. */
-static void save(const struct kr_run *run, struct records *r, long next) {
-    enum kr_interrupt asked = kr_interrupt_asked();
-    double every = run->c->checkpoint_every, now = kr_progress_clock();
-    if (asked == KR_INTERRUPT_NONE && !(every > 0 && now - r->saved >= every))
-        return;
-    r->at.step = next;
-    r->at.history = kr_history_bytes(r->history);
-    kr_checkpoint_write(run->c, &r->at);
-    r->saved = now;
-    if (asked == KR_INTERRUPT_STOP)
-        kr_stop(KR_EXIT_SIGNAL,
-                "stopped by a signal before step %ld of %ld; all is in %s/checkpoint.h5: go on with "
-                "the same command (kirsch), or kirsch-solve --resume",
-                next, run->steps, run->c->folder);
+    kr_progress_end(&progress, (double)run->bonds->count * (double)(step - first + 1),
+                    "directed bond updates");
+    if (rest)
+        end_relaxation(rest, stage);
+    end_stage(run, r, step, (double)step * dt);
 }
 
 void kr_run_solve(struct kr_run *run, const char *deck_text, int resume) {
-    struct kr_body *body = run->body;
-    struct records r;
-    const long first = records_open(run, deck_text, resume, &r);
-    const char *energy = kr_ledger_unit(body->dim);
-    struct kr_progress progress =
-        kr_progress_begin("steps", (double)first, (double)run->steps);
+    struct kr_records r;
+    int apart = 0;
+    kr_records_open(&r, run, deck_text, resume);
     kr_interrupt_begin();
-    for (long step = first;; step++) {
-        const double t = (double)step * run->dt;
-        kr_body_force(body, 1);
-        kr_boundary_push(run->boundary, body, t);
-        kr_crack_record(r.crack, body, t);
-        if (step == 0)
-            kr_ledger_begin(r.ledger, run->boundary, body, r.crack, run->dt);
+    while (r.at.stage < run->n_stages && !apart)
+        if (run->stage[r.at.stage].kind == KR_STAGE_STATIC)
+            apart = kr_run_static(run, &r);
         else
-            kr_ledger_step(r.ledger, run->boundary, body, t, run->dt);
-        record(run, &r, step, t);
-        if (step == run->steps)
-            break;
-        kr_boundary_hold(run->boundary, body, t, run->dt);
-        kr_body_advance(body, step == 0 ? 0.5 * run->dt : run->dt, run->dt);
-        save(run, &r, step + 1);
-        kr_progress_show(&progress, (double)step,
-                         "t %.4g us, %zu bonds broken, %.3g %s of work, balance %.1e", 1e6 * t,
-                         r.crack->count, r.ledger->external, energy, r.ledger->balance);
-    }
-    kr_progress_end(&progress, (double)run->bonds->count * (double)(run->steps - first + 1),
-                    "directed bond updates");
+            run_moving(run, &r);
     kr_say("  energies at the end [%s]: external work %.4g = kinetic %.4g + strain %.4g + fracture "
            "%.4g, balance %.2e",
-           energy, r.ledger->external, r.ledger->kinetic, r.ledger->strain, r.ledger->fracture,
-           r.ledger->balance);
-    records_close(&r);
+           kr_ledger_unit(run->body->dim), r.ledger->external, r.ledger->kinetic, r.ledger->strain,
+           r.ledger->fracture, r.ledger->balance);
+    kr_records_close(&r);
     kr_checkpoint_remove(run->c);
 }

@@ -10,19 +10,35 @@
 #include "case.h"
 #include "nodes.h"
 
+/** A part of the run, ready. */
+struct kr_stage {
+    int kind;       /* enum kr_stage_kind */
+    double dt;      /* s; 0 in a static stage */
+    long steps;     /* static: as the deck has them */
+    double end;     /* s: of the stage's clock */
+    double damping; /* 1/s */
+    double least_step, end_below, tolerance;
+    int breaks;
+    const struct kr_deck_list *load_steps; /* struct kr_case_steps; static */
+};
+
 /** A case ready to run; owns all of it. */
 struct kr_run {
     const struct kr_case *c; /* not owned */
     struct kr_nodes *nodes;
     struct kr_bonds *bonds;
     struct kr_body *body;
-    struct kr_boundary *boundary;
     size_t precrack; /* pairs cut by the pre-cracks */
-    double dt;       /* s */
-    long steps;
+    int staged;      /* the deck has stages */
+    size_t n_stages;
+    struct kr_stage *stage;        /* (n_stages) */
+    struct kr_boundary **boundary; /* (n_stages): the loads of each */
+    double safe_step;              /* s: longest step in time that is safe */
+    double dt;                     /* s, of the last stage that has steps in time */
+    long steps;                    /* of all stages together */
 };
 
-/** Read the node file, find families, cut pre-cracks, set loads and find the time step. Faults of
+/** Read the node file, find families, cut pre-cracks, set the loads of each stage and find the time step. Faults of
  *  the deck (an unknown set, a node file made for another horizon) are added to it and stop. */
 struct kr_run *kr_run_create(struct kr_deck *deck, const struct kr_case *c);
 void kr_run_free(struct kr_run *run);
@@ -30,6 +46,12 @@ void kr_run_free(struct kr_run *run);
 /** Derived quantities, as lines of text on stdout: constants, wave speeds, bonds, time step, memory,
  *  and an estimate of the time, from a short measurement. */
 void kr_run_explain(const struct kr_run *run);
+
+/** One static stage: load step by load step to equilibrium, breaking bonds past s0 until there is none;
+ *  theory.md (24) to (26). Returns 1 where the body came apart, which ends the run. Stops (exit 2)
+ *  where the loads leave the body free to move, naming how; (exit 4) where there is no equilibrium. */
+struct kr_records;
+int kr_run_static(struct kr_run *run, struct kr_records *records);
 
 /** Solve, and write run.h5, run.xdmf and history.csv into the case's folder. Checkpoints are written
  *  every solver.checkpoint_every of wall time and on SIGUSR1, SIGTERM and SIGINT; the last two stop the

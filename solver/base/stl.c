@@ -1,110 +1,133 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * STL files. The two kinds are told apart by their size, for the header of a binary file may begin
- * with "solid", too. The format: M. Burns, Automated Fabrication (1993), section 6.5.
+ * STL files. A binary one has 80 bytes of any text, a count of 4 bytes, and 50 bytes a triangle; it
+ * is told by its length, for its text may well begin with "solid" as an ASCII file does.
+ * The format: M. Burns, Automated Fabrication (1993), section 6.5.
  */
 #include "base/stl.h"
 
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/unit.h"
+#include "base/scan.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
-enum { HEADER = 84, RECORD = 50 };
+enum { HEAD = 84, RECORD = 50 };
 
-static uint32_t word_at(const unsigned char *from) {
-    return from[0] | (uint32_t)from[1] << 8 | (uint32_t)from[2] << 16 | (uint32_t)from[3] << 24;
+struct reading {
+    struct kr_scan scan;
+    size_t n, room;
+    double (*triangle)[9];
+};
+
+static void add_triangle(struct reading *r, const double corner[9]) {
+    KR_GROW(r->triangle, r->n, r->room);
+    memcpy(r->triangle[r->n++], corner, 9 * sizeof *corner);
 }
 
-static double float_at(const unsigned char *from) {
-    uint32_t word = word_at(from);
-    float value;
-    memcpy(&value, &word, sizeof value);
-    return value;
-}
-
-/* The whole file with a zero behind it, owned by the caller. */
-static unsigned char *slurp(const char *path, size_t *length) {
-    FILE *file = fopen(path, "rb");
-    if (!file || fseek(file, 0, SEEK_END))
-        kr_stop(KR_EXIT_INPUT, "%s cannot be read: %s", path, strerror(errno));
-    long size = ftell(file);
-    rewind(file);
-    unsigned char *bytes = KR_NEW(unsigned char, (size_t)(size < 0 ? 0 : size) + 1);
-    *length = size < 0 ? 0 : fread(bytes, 1, (size_t)size, file);
-    if (size < 0 || *length != (size_t)size)
-        kr_stop(KR_EXIT_INPUT, "%s cannot be read to its end: %s", path, strerror(errno));
-    fclose(file);
-    return bytes;
-}
-
-static double *read_binary(const unsigned char *bytes, size_t count) {
-    double *corner = KR_NEW(double, 9 * count);
-    for (size_t t = 0; t < count; t++)
-        for (size_t k = 0; k < 9; k++) /* behind the three numbers of the normal */
-            corner[9 * t + k] = float_at(bytes + HEADER + RECORD * t + 12 + 4 * k);
-    return corner;
-}
-
-/* The three numbers behind "vertex"; what else stands in the file says nothing. */
-static void read_vertex(const char *path, const char *text, size_t line, double corner[3]) {
-    for (int d = 0; d < 3; d++) {
-        text += strspn(text, " \t");
-        const char *end = kr_unit_number(text, &corner[d]);
-        if (!end)
-            kr_stop(KR_EXIT_INPUT, "%s:%zu: found '%.*s', expected the three coordinates of a vertex",
-                    path, line, (int)strcspn(text, "\r\n"), text);
-        text = end;
-    }
-}
-
-static double *read_text(const char *path, const char *text, size_t *count) {
-    double *corner = NULL;
-    size_t corners = 0, room = 0;
-    for (size_t line = 1; *text; line++) {
-        text += strspn(text, " \t");
-        if (!strncasecmp(text, "vertex", 6)) {
-            if (3 * corners + 3 > room)
-                corner = kr_realloc(corner, room = 6 * corners + 900, sizeof *corner);
-            read_vertex(path, text + 6, line, corner + 3 * corners++);
+static void read_binary(struct reading *r, size_t count) {
+    for (size_t t = 0; t < count; t++) {
+        const char *at = r->scan.data + HEAD + RECORD * t + 12; /* behind the normal */
+        float value[9];
+        double corner[9];
+        memcpy(value, at, sizeof value);
+        for (int k = 0; k < 9; k++) {
+            corner[k] = (double)value[k];
+            if (!isfinite(corner[k]))
+                kr_stop(KR_EXIT_INPUT, "%s: triangle %zu (byte %zu) has a corner that is not a number",
+                        r->scan.path, t + 1, HEAD + RECORD * t);
         }
-        text += strcspn(text, "\n");
-        text += *text == '\n';
+        add_triangle(r, corner);
     }
-    if (corners % 3)
-        kr_stop(KR_EXIT_INPUT, "%s: found %zu vertices, expected three a triangle; the file is cut",
-                path, corners);
-    *count = corners / 3;
-    return corner;
+}
+
+static void expect(struct reading *r, const char *word, const char *wanted) {
+    if (strcasecmp(word, wanted))
+        kr_scan_bad(&r->scan, "found '%.20s', expected '%s'", word, wanted);
+}
+
+static void next(struct reading *r, char word[64], const char *wanted) {
+    if (!kr_scan_word(&r->scan, word, 64))
+        kr_scan_bad(&r->scan, "the file ends, expected '%s'", wanted);
+    expect(r, word, wanted);
+}
+
+static void read_facet(struct reading *r) {
+    char word[64];
+    double corner[9];
+    next(r, word, "normal");
+    for (int d = 0; d < 3; d++) /* not used, and some programs write nan for it */
+        if (!kr_scan_word(&r->scan, word, sizeof word))
+            kr_scan_bad(&r->scan, "the file ends, expected a normal");
+    next(r, word, "outer");
+    next(r, word, "loop");
+    for (int k = 0; k < 9; k++) {
+        if (k % 3 == 0)
+            next(r, word, "vertex");
+        corner[k] = kr_scan_double(&r->scan, "a coordinate of a vertex");
+        if (!isfinite(corner[k]))
+            kr_scan_bad(&r->scan, "a coordinate of a vertex is no finite number");
+    }
+    next(r, word, "endloop");
+    next(r, word, "endfacet");
+    add_triangle(r, corner);
+}
+
+/** The name of a solid may be any text: what follows up to the end of the line. */
+static void skip_line(struct kr_scan *scan) {
+    while (scan->at < scan->size && scan->data[scan->at] != '\n')
+        scan->at++;
+}
+
+static void read_ascii(struct reading *r) {
+    char word[64];
+    int is_open = 0;
+    while (kr_scan_word(&r->scan, word, sizeof word)) {
+        if (!strcasecmp(word, "solid") && !is_open) {
+            skip_line(&r->scan);
+            is_open = 1;
+        } else if (!strcasecmp(word, "endsolid") && is_open) {
+            skip_line(&r->scan);
+            is_open = 0;
+        } else {
+            expect(r, word, is_open ? "facet" : "solid");
+            read_facet(r);
+        }
+    }
+    if (is_open)
+        kr_scan_bad(&r->scan, "the file ends, expected 'facet' or 'endsolid'");
+}
+
+static void read_file(struct reading *r) {
+    uint32_t count = 0;
+    if (r->scan.size >= HEAD)
+        memcpy(&count, r->scan.data + HEAD - sizeof count, sizeof count);
+    size_t wanted = HEAD + RECORD * (size_t)count;
+    int is_ascii = r->scan.size > 5 && !strncasecmp(r->scan.data, "solid", 5) &&
+                   !memchr(r->scan.data, 0, r->scan.size);
+    if (r->scan.size >= HEAD && r->scan.size == wanted)
+        read_binary(r, count);
+    else if (is_ascii)
+        read_ascii(r);
+    else
+        kr_stop(KR_EXIT_INPUT,
+                "%s: neither an ASCII STL file, which begins with 'solid', nor a binary one: %zu bytes, "
+                "and its count of %lu triangles needs %zu",
+                r->scan.path, r->scan.size, (unsigned long)count, wanted);
 }
 
 double *kr_stl_read(const char *path, double unit, size_t *count) {
-    size_t length;
-    unsigned char *bytes = slurp(path, &length);
-    double *corner = NULL;
-    *count = length >= HEADER ? word_at(bytes + 80) : 0;
-    if (length >= HEADER && length == HEADER + RECORD * *count)
-        corner = read_binary(bytes, *count);
-    else if (!strncasecmp((const char *)bytes, "solid", 5))
-        corner = read_text(path, (const char *)bytes, count);
-    else
-        kr_stop(KR_EXIT_INPUT,
-                "%s: neither an ASCII STL file, which begins with 'solid', nor a whole binary one: "
-                "it has %zu bytes", path, length);
-    if (!*count)
+    struct reading r = {.scan = kr_scan_open(path)};
+    read_file(&r);
+    if (!r.n)
         kr_stop(KR_EXIT_INPUT, "%s: no triangle in it", path);
-    for (size_t k = 0; k < 9 * *count; k++) {
-        if (!isfinite(corner[k]))
-            kr_stop(KR_EXIT_INPUT, "%s: triangle %zu has the coordinate %g; expected a finite number",
-                    path, k / 9 + 1, corner[k]);
-        corner[k] *= unit;
-    }
-    kr_free(bytes);
-    return corner;
+    for (size_t k = 0; k < 9 * r.n; k++)
+        r.triangle[k / 9][k % 9] *= unit;
+    kr_scan_close(&r.scan);
+    *count = r.n;
+    return (double *)r.triangle;
 }

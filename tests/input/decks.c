@@ -76,10 +76,10 @@ static const struct row {
      "case.yaml:17:3: material.density: missing; expected a density in kg/m^3\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_missing_section", "solver: {end_time: 50 us}\n", "", NULL, NULL,
-     "case.yaml:1:1: solver.end_time: missing; expected a time in us\n"
+     "case.yaml:1:1: solver.end_time: missing; expected a time in us, or `stages`\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_missing_key_of_an_empty_section", "solver: {end_time: 50 us}", "solver:", NULL, NULL,
-     "case.yaml:27:1: solver.end_time: missing; expected a time in us\n"
+     "case.yaml:27:1: solver.end_time: missing; expected a time in us, or `stages`\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_missing_value", "  density: 1190 kg/m3", "  density:", NULL, NULL,
      "case.yaml:19:3: material.density: found nothing, expected a density in kg/m^3\n"
@@ -184,7 +184,7 @@ static const struct row {
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_section_as_a_text", "solver: {end_time: 50 us}", "solver: fast", NULL, NULL,
      "case.yaml:27:9: solver: found 'fast', expected a section with end_time, time_step, "
-     "safety_factor, checkpoint_every\n"
+     "precision, safety_factor, checkpoint_every\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_map_as_a_list",
      "  sets:\n    top: {within: 0.3 mm, of: top}\n    bottom: {within: 0.3 mm, of: bottom}",
@@ -496,7 +496,7 @@ static const struct row {
     {"deck_fault_that_would_spread_over_lines", "title: a plate",
      "title: a plate\n\"two\\nlines\": 3", NULL, NULL,
      "case.yaml:2:1: two lines: unknown key; known here: title, preset, no_fail, geometry, mesh, "
-     "nodes, material, cracks, initial, loads, solver, output, track\n"
+      "nodes, material, cracks, initial, loads, stages, solver, output, track\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_no_yaml", "mesh:", "mesh: {", NULL, NULL,
      "kirsch: case.yaml:10:10: not a YAML file: missing comma in flow mapping\n"},

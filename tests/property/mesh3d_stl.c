@@ -177,7 +177,7 @@ static void broken_files(void **unused) {
     refuses(write_ascii("no-end", 0, TRIANGLES, ""), "endsolid");
     refuses(write_binary("short", TRIANGLES, TRIANGLES - 7), "of 14400 triangles needs 720084");
     refuses(write_text("empty", ""), "neither an ASCII STL file");
-    refuses(write_text("hollow", "solid nothing\nendsolid nothing\n"), "4 or more");
+    refuses(write_text("hollow", "solid nothing\nendsolid nothing\n"), "no triangle in it");
     refuses(write_text("words", "This is no surface."), "neither an ASCII STL file");
 }
 

@@ -83,16 +83,17 @@ static void solid_broken_stl_is_refused(void **state) {
     static const struct {
         const char *text, *said;
     } wrong[] = {
-        {"", "neither an ASCII STL file, which begins with 'solid', nor a whole binary one: it has 0 "
-             "bytes"},
+        {"", "neither an ASCII STL file, which begins with 'solid', nor a binary one: 0 bytes"},
         {"PK zip", "neither an ASCII STL file"},
         {"solid\nendsolid\n", ": no triangle in it"},
-        {"solid\nvertex 1 2 3\nvertex 1 2 4\n", "found 2 vertices, expected three a triangle"},
-        {"solid\nvertex 1 2\n", ".stl:2: found '', expected the three coordinates of a vertex"},
-        {"solid\nvertex 1 two 3\n", ".stl:2: found 'two 3', expected the three coordinates"},
+        {"solid\nfacet normal 0 0 1 outer loop\nvertex 1 2 3\nvertex 1 2 4\n",
+         ".stl:5: the file ends, expected 'vertex'"},
+        {"solid\nfacet normal 0 0 1 outer loop\nvertex 1 two 3\n",
+         ".stl:3: expected a coordinate of a vertex, found 'two'"},
+        {"solid\nvertex 1 2 3\n", ".stl:2: found 'vertex', expected 'facet'"},
     };
     char *path = path_of("wrong.stl");
-    kr_check_stops(read_stl, path, KR_EXIT_INPUT, ".stl cannot be read: No such file or directory");
+    kr_check_stops(read_stl, path, KR_EXIT_INPUT, "cannot be read: No such file or directory");
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         FILE *file = fopen(path, "w");
         fputs(wrong[k].text, file);

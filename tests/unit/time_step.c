@@ -95,7 +95,7 @@ static void run_unstable(void *argument) {
                                       "loads: [{set: top, traction: [free, 1 MPa]}, "
                                       "{set: bottom, traction: [free, -1 MPa]}]\n");
     atexit(remove_folder);
-    unstable.run->dt *= 1.1 / unstable.c.safety_factor;
+    unstable.run->stage[0].dt *= 1.1 / unstable.c.safety_factor;
     kr_run_solve(unstable.run, "", 0);
 }
 

@@ -3,7 +3,7 @@
  * Scanning a file in memory. The zero behind its last byte ends every number, so strtod and its
  * kin cannot run past it.
  */
-#include "scan.h"
+#include "base/scan.h"
 
 #include "base/error.h"
 #include "base/memory.h"

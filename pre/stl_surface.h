@@ -4,8 +4,8 @@
  * (https://www.loc.gov/preservation/digital/formats/fdd/fdd000505.shtml). The format has neither units
  * nor neighbours: which triangles meet is told by their corners' places alone, and normals are not used.
  */
-#ifndef KR_STL_H
-#define KR_STL_H
+#ifndef KR_STL_SURFACE_H
+#define KR_STL_SURFACE_H
 
 #include "cgal_surface.h"
 

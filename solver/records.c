@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Records of a run. See records.h.
+ */
+#include "records.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/progress.h"
+#include "interrupt.h"
+
+void kr_records_open(struct kr_records *r, struct kr_run *run, const char *deck_text, int resume) {
+    const struct kr_case *c = run->c;
+    char *path = kr_case_file(c, "history.csv");
+    *r = (struct kr_records){.run = run,
+                             .crack = kr_crack_create(run->bonds, c->damage_threshold),
+                             .ledger = kr_ledger_create(run->body),
+                             .saved = kr_progress_clock()};
+    r->at = (struct kr_checkpoint){.steps = run->steps,
+                                   .dt = run->dt,
+                                   .deck_text = deck_text,
+                                   .body = run->body,
+                                   .ledger = r->ledger,
+                                   .crack = r->crack};
+    if (resume) {
+        kr_checkpoint_read(c, &r->at);
+        kr_say("  resumed at step %ld, t = %.4g us", r->at.before + r->at.step,
+               1e6 * (r->at.began + (double)r->at.step * run->stage[r->at.stage].dt));
+    } else {
+        kr_checkpoint_remove(c);
+    }
+    /* The step that a later stage begins with was written as the last one of the stage before. */
+    int written = r->at.stage > 0 && r->at.step == 0;
+    struct kr_output_plan plan = {.dt = run->dt,
+                                  .steps = run->steps,
+                                  .open = run->staged,
+                                  .resumed = resume,
+                                  .done = r->at.before + r->at.step + written};
+    r->output = kr_output_create(c, run->nodes, run->bonds, plan, deck_text);
+    r->history =
+        kr_history_open(path, run->boundary, run->n_stages, run->body->dim, r->at.history);
+    if (run->staged)
+        r->sites = kr_sites_create(c, run->bonds, r->crack, r->at.sites);
+    kr_free(path);
+}
+
+void kr_records_close(struct kr_records *r) {
+    if (r->sites)
+        kr_sites_free(r->sites);
+    kr_output_free(r->output);
+    kr_history_close(r->history);
+    kr_crack_free(r->crack);
+    kr_ledger_free(r->ledger);
+}
+
+void kr_records_crack(struct kr_records *r, long step, double t) {
+    size_t from = r->crack->count;
+    kr_crack_record(r->crack, r->run->body, r->at.began + t);
+    if (r->sites)
+        kr_sites_note(r->sites, r->crack, from,
+                      (struct kr_history_time){r->at.before + step, r->at.began + t, r->at.stage, t});
+}
+
+void kr_records_write(struct kr_records *r, int output, int last, long step, double t) {
+    struct kr_history_time at = {r->at.before + step, r->at.began + t, r->at.stage, t};
+    kr_history_write(r->history, r->ledger, r->crack, at);
+    if (output)
+        kr_output_write(r->output, r->run->body, r->ledger, r->crack, at.step, at.time, last);
+}
+
+void kr_records_save(struct kr_records *r, long next) {
+    const struct kr_case *c = r->run->c;
+    enum kr_interrupt asked = kr_interrupt_asked();
+    double now = kr_progress_clock();
+    if (asked == KR_INTERRUPT_NONE &&
+        !(c->checkpoint_every > 0 && now - r->saved >= c->checkpoint_every))
+        return;
+    r->at.step = next;
+    r->at.history = kr_history_bytes(r->history);
+    r->at.sites = r->sites ? kr_sites_bytes(r->sites) : 0;
+    kr_checkpoint_write(c, &r->at);
+    r->saved = now;
+    if (asked == KR_INTERRUPT_STOP)
+        kr_stop(KR_EXIT_SIGNAL,
+                "stopped by a signal before step %ld of %ld; all is in %s/checkpoint.h5: go on with "
+                "the same command (kirsch), or kirsch-solve --resume",
+                r->at.before + next, r->run->steps, c->folder);
+}
+
+void kr_records_next_stage(struct kr_records *r, long steps, double t) {
+    r->at.stage++;
+    r->at.step = 0;
+    r->at.before += steps;
+    r->at.began += t;
+}
