@@ -67,7 +67,7 @@ KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 $(foreach k,$(kernels),$(eval KERNEL_$(k)_mixed := $(KERNEL_$(k)) -DKR_FLOAT))
 
-.PHONY: FORCE all help demo study test bench deps corrections pores-500 free-grid validate $(cases) \
+.PHONY: FORCE all help demo study test bench deps corrections pores-500 free-grid bar validate $(cases) \
         docs format install clean check-deps
 all: check-deps $(programs) $(scripts)
 
@@ -135,6 +135,10 @@ $(BUILD)/corrections: $(BUILD)/cases/corrections/corrections.o $(BUILD)/libkirsc
 	@echo "  link  $(@F)"
 	$(Q)$(CC) $(CFLAGS) -fopenmp $^ $(LIBS) -o $@
 
+$(BUILD)/bar: $(BUILD)/cases/bar/bar.o $(BUILD)/libkirsch.a
+	@echo "  link  $(@F)"
+	$(Q)$(CC) $(CFLAGS) -fopenmp $^ $(LIBS) -o $@
+
 # ---- running --------------------------------------------------------------------------------
 demo: deps
 	@$(MAKE) --no-print-directory all
@@ -159,6 +163,9 @@ corrections: all $(BUILD)/corrections
 
 pores-500: all $(BUILD)/fields
 	@$(BUILD)/fields $(or $(GRID),near-boundary) 1 $(or $(SEEDS),500) $(or $(PORES),30) $(or $(SPACING),0.25)
+
+bar: all $(BUILD)/bar
+	@BUILD=$(BUILD) cases/bar/table
 
 free-grid: all
 	@BUILD=$(BUILD) cases/free-grid/table
@@ -186,4 +193,4 @@ clean:
 	rm -rf $(BUILD)
 
 -include $(library_o:.o=.d) $(kernel_o:.o=.d) $(patsubst %.c,$(BUILD)/%.d,$(programs_c)) $(tests:=.d) \
-         $(BUILD)/cases/corrections/corrections.d $(BUILD)/cases/pores-500/fields.d
+         $(BUILD)/cases/corrections/corrections.d $(BUILD)/cases/pores-500/fields.d $(BUILD)/cases/bar/bar.d

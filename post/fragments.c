@@ -25,7 +25,8 @@ static const double PI = 3.14159265358979323846;
 
 struct bonds {
     const struct kr_record *record;
-    const struct kr_case *c;
+    struct kr_precrack *const *crack; /* (n_cracks) */
+    size_t n_cracks;
     int partial_volume;
     double *size;     /* (n) m */
     uint64_t *broken; /* sorted: lower node times 2^32 plus higher node */
@@ -45,23 +46,10 @@ static const double *place(const struct kr_record *record, size_t i) {
     return record->position + (size_t)record->dim * i;
 }
 
-static double side(const double *a, const double *b, const double *p) {
-    return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
-}
-
-/** Whether two segments meet; touching counts, as in precrack.c. */
-static int segments_meet(const double *p, const double *q, const double *a, const double *b) {
-    for (int d = 0; d < 2; d++)
-        if (fmax(p[d], q[d]) < fmin(a[d], b[d]) || fmax(a[d], b[d]) < fmin(p[d], q[d]))
-            return 0;
-    return side(p, q, a) * side(p, q, b) <= 0 && side(a, b, p) * side(a, b, q) <= 0;
-}
-
 static int is_cut(const struct bonds *bonds, size_t i, size_t j) {
-    const struct kr_case_crack *crack = bonds->c->cracks.item;
-    for (size_t k = 0; bonds->record->dim == 2 && k < bonds->c->cracks.count; k++)
-        if (segments_meet(place(bonds->record, i < j ? i : j), place(bonds->record, i < j ? j : i),
-                          crack[k].from, crack[k].to))
+    for (size_t k = 0; k < bonds->n_cracks; k++)
+        if (kr_precrack_meets(bonds->crack[k], place(bonds->record, i < j ? i : j),
+                              place(bonds->record, i < j ? j : i)))
             return 1;
     return 0;
 }
@@ -117,8 +105,9 @@ static void join_all(struct bonds *bonds) {
     kr_free(near);
 }
 
-static struct bonds bonds_of(const struct kr_record *record, const struct kr_case *c) {
-    struct bonds bonds = {record, c, c->partial_volume};
+static struct bonds bonds_of(const struct kr_record *record, const struct kr_case *c,
+                             struct kr_precrack *const *crack) {
+    struct bonds bonds = {record, crack, c->cracks.count, c->partial_volume};
     if (bonds.partial_volume == KR_PARTIAL_VOLUME_EXACT ||
         bonds.partial_volume == KR_PARTIAL_VOLUME_EXACT_CENTROID)
         bonds.partial_volume = KR_PARTIAL_VOLUME_HHB; /* the same bonds but for slivers */
@@ -215,8 +204,9 @@ static void order(const struct kr_record *record, size_t *up, struct kr_fragment
 }
 
 void kr_fragments_find(const struct kr_record *record, const struct kr_case *c,
-                       const double *velocity, struct kr_fragments *fragments) {
-    struct bonds bonds = bonds_of(record, c);
+                       struct kr_precrack *const *crack, const double *velocity,
+                       struct kr_fragments *fragments) {
+    struct bonds bonds = bonds_of(record, c, crack);
     size_t room = 0;
     *fragments = (struct kr_fragments){.of = KR_NEW(size_t, record->n)};
     join_all(&bonds);

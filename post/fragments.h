@@ -7,6 +7,7 @@
 #define KR_FRAGMENTS_H
 
 #include "case.h"
+#include "precrack.h"
 #include "record.h"
 
 struct kr_fragment {
@@ -23,9 +24,11 @@ struct kr_fragments {
     size_t *of;               /* (n) fragment of a node, as an index of `item` */
 };
 
-/** Find the fragments. `velocity` (n x 3, m/s) may be NULL. */
+/** Find the fragments. `crack`: the pre-cracks of the deck, as many as it has; `velocity` (n x 3, m/s) may
+ *  be NULL. */
 void kr_fragments_find(const struct kr_record *record, const struct kr_case *c,
-                       const double *velocity, struct kr_fragments *fragments);
+                       struct kr_precrack *const *crack, const double *velocity,
+                       struct kr_fragments *fragments);
 void kr_fragments_clear(struct kr_fragments *fragments);
 
 /** Velocities (n x 3) of the last output of a run, owned by the caller; NULL: there is none. */

@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "case.h"
 #include "report.h"
+#include "sheet.h"
 
 static const char usage[] =
     "kirsch-track case.yaml\n"
@@ -15,7 +16,7 @@ static const char usage[] =
     "Reads run.h5 and plate.nodes.h5 in the case's folder and finds the cracks of the run: where\n"
     "and when each began, how fast it ran, where it branched, merged, met a hole or stopped.\n"
     "Writes tips.csv, branches.csv, events.csv and summary.csv there, and boxes.csv where the deck\n"
-    "has `track.boxes`.";
+    "has `track.boxes`; of a solid front.csv and area.csv.";
 
 static void stop_on_unknown(const struct kr_case_arguments *arguments) {
     if (arguments->n_left)
@@ -64,24 +65,47 @@ static void write_table(const struct kr_case *c, const struct kr_report *report,
     kr_free(path);
 }
 
+/** The pre-cracks of the deck. */
+static struct kr_precrack **cracks_of(struct kr_deck *deck, const struct kr_case *c) {
+    const struct kr_case_crack *from = c->cracks.item;
+    struct kr_precrack **crack = KR_NEW(struct kr_precrack *, c->cracks.count);
+    for (size_t k = 0; k < c->cracks.count; k++) {
+        char *path = from[k].file ? kr_deck_beside(deck, from[k].file) : NULL;
+        crack[k] = kr_precrack_create(&from[k], path);
+        kr_free(path);
+    }
+    return crack;
+}
+
 /** Find and write the pieces of the body. */
-static struct kr_fragments break_up(const struct kr_case *c, const struct kr_record *record,
-                                    const char *run) {
+static struct kr_fragments break_up(struct kr_deck *deck, const struct kr_case *c,
+                                    const struct kr_record *record, const char *run) {
+    struct kr_precrack **crack = cracks_of(deck, c);
     double *velocity = kr_fragments_velocity(run, record->n);
     char *path = kr_case_file(c, "fragments.csv");
     struct kr_fragments fragments;
     if (!velocity)
         kr_warn("%s holds no output with velocities: fragments have no momentum", run);
-    if (record->dim == 3 && c->cracks.count)
-        kr_warn("bonds that pre-cracks cut in 3D are taken for living in fragments.csv");
-    kr_fragments_find(record, c, velocity, &fragments);
+    kr_fragments_find(record, c, crack, velocity, &fragments);
     kr_fragments_write(&fragments, record->dim, path);
+    for (size_t k = 0; k < c->cracks.count; k++)
+        kr_precrack_free(crack[k]);
+    kr_free(crack);
     kr_free(velocity);
     kr_free(path);
     return fragments;
 }
 
-static void track_run(const struct kr_case *c) {
+/** What only solids have. */
+static void write_sheets(const struct kr_case *c, const struct kr_record *record) {
+    char *front = kr_case_file(c, "front.csv"), *area = kr_case_file(c, "area.csv");
+    kr_sheet_front(record, c, front);
+    kr_sheet_area(record, area);
+    kr_free(front);
+    kr_free(area);
+}
+
+static void track_run(struct kr_deck *deck, const struct kr_case *c) {
     char *run = kr_case_file(c, "run.h5");
     struct kr_record *record = kr_record_read(run);
     struct kr_fragments fragments;
@@ -91,17 +115,17 @@ static void track_run(const struct kr_case *c) {
         kr_warn("%s is not finished: this is the crack after %lld steps", run,
                 (long long)record->steps);
     read_rims(c, record);
-    fragments = break_up(c, record, run);
+    fragments = break_up(deck, c, record, run);
     tree = kr_tree_grow(record);
-    if (record->dim == 3 && c->boxes.count)
-        kr_stop(KR_EXIT_INPUT, "track.boxes follow tips in 2D, and the run is in 3D; leave them out");
-    report = (struct kr_report){record, c->window, c->boxes.count, follow_boxes(c, record), tree,
-                               &fragments};
+    report = (struct kr_report){record, c->window, record->dim == 2 ? c->boxes.count : 0,
+                                record->dim == 2 ? follow_boxes(c, record) : NULL, tree, &fragments};
     write_table(c, &report, "tips.csv", kr_report_tips);
     write_table(c, &report, "branches.csv", kr_report_branches);
     write_table(c, &report, "events.csv", kr_report_events);
     if (report.n_tracks)
         write_table(c, &report, "boxes.csv", kr_report_boxes);
+    if (record->dim == 3)
+        write_sheets(c, record);
     write_table(c, &report, "summary.csv", kr_report_summary);
     kr_report_say(&report);
     kr_free(run);
@@ -121,7 +145,7 @@ int main(int argc, char **argv) {
     if (arguments.explain)
         explain(&c);
     else
-        track_run(&c);
+        track_run(deck, &c);
     kr_deck_close(deck);
     kr_free(arguments.set);
     kr_free(arguments.left);

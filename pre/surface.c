@@ -21,18 +21,26 @@
 enum { MOST_ITERATIONS = 5000, FINE = 25 };
 static const double STRAIN = 1e-4, TOLERANCE = 1e-7;
 
+/* Strain along d of a deformation whose axis is `axis`. Across a uniaxial stress the model shrinks by 1/4
+ * in a solid, by 1/3 in plane stress (nu) and in plane strain (nu/(1 - nu)). */
+static double strain_along(int dim, int deformation, int axis, int d) {
+    if (d >= dim)
+        return 0;
+    if (d == axis || deformation == KR_ISOTROPIC)
+        return STRAIN;
+    return deformation >= KR_STRESS_X ? -STRAIN / (dim + 1) : 0;
+}
+
 /* Strains of the deformations along the axes, and how many there are to take the mean over. */
 static int strains_of(int dim, int deformation, double strain[3][3]) {
-    int count = deformation == KR_MEAN_OVER_AXES ? dim : 1;
+    static const int axis_of[] = {[KR_UNIAXIAL_Y] = 1, [KR_UNIAXIAL_X] = 0, [KR_UNIAXIAL_Z] = 2,
+                                  [KR_STRESS_X] = 0,   [KR_STRESS_Y] = 1,   [KR_STRESS_Z] = 2,
+                                  [KR_STRESS_OVER_AXES] = 0};
+    int all = deformation == KR_MEAN_OVER_AXES || deformation == KR_STRESS_OVER_AXES;
+    int count = all ? dim : 1;
     for (int k = 0; k < count; k++)
-        for (int d = 0; d < 3; d++) {
-            int axis = deformation == KR_UNIAXIAL_X   ? 0
-                       : deformation == KR_UNIAXIAL_Y ? 1
-                       : deformation == KR_UNIAXIAL_Z ? 2
-                                                      : k;
-            int strained = deformation == KR_ISOTROPIC ? d < dim : d == axis;
-            strain[k][d] = strained ? STRAIN : 0;
-        }
+        for (int d = 0; d < 3; d++)
+            strain[k][d] = strain_along(dim, deformation, all ? k : axis_of[deformation], d);
     return count;
 }
 

@@ -248,7 +248,9 @@ static const struct kr_deck_key nodes_keys[] = {
      .text = "The homogeneous deformation of the energy correction. `mean-over-axes`: the mean of "
              "the uniaxial strains along all axes, smooth and safe; `uniaxial-y`, `uniaxial-x`, in 3D "
              "also `uniaxial-z`: the paper's, exact for a load in that direction, but rough at its "
-             "edges and impossible between close holes; `isotropic`."},
+             "edges and impossible between close holes; `stress-x`, `stress-y`, in 3D also `stress-z`: a "
+             "uniaxial stress, the body shrinking across it, for bars ([theory.md](theory.md#surface-factors)); "
+             "`stress-over-axes`: the mean of these; `isotropic`."},
     {"sets", LIST_OF(KR_DECK_MAP, struct kr_case_set, set_keys), .offset = AT(sets),
      .text = "Named sets of nodes, for loads and no-fail zones: `top: {within: 0.3 mm, of: top}` "
              "or `{lower: [0 mm, 0 mm], upper: [1 mm, 2 mm]}`. A set is one of boundary, box, disc, "

@@ -18,7 +18,8 @@
 #define KR_VOID_WORDS "sphere ellipsoid cylinder stl"
 #define KR_PARTIAL_VOLUME_WORDS "hhb none hhb-one-sided exact exact-centroid"
 #define KR_SURFACE_WORDS "energy none volume force-density"
-#define KR_DEFORMATION_WORDS "uniaxial-y uniaxial-x isotropic mean-over-axes uniaxial-z"
+#define KR_DEFORMATION_WORDS "uniaxial-y uniaxial-x isotropic mean-over-axes uniaxial-z " \
+    "stress-x stress-y stress-z stress-over-axes"
 #define KR_MODEL_WORDS "plane-stress plane-strain solid"
 #define KR_MICROMODULUS_WORDS "constant conical"
 #define KR_PRESET_WORDS "none plates-paper"
@@ -67,7 +68,10 @@ enum kr_surface_correction {
     KR_SURFACE_VOLUME,
     KR_SURFACE_FORCE_DENSITY,
 };
-enum kr_deformation { KR_UNIAXIAL_Y, KR_UNIAXIAL_X, KR_ISOTROPIC, KR_MEAN_OVER_AXES, KR_UNIAXIAL_Z };
+enum kr_deformation {
+    KR_UNIAXIAL_Y, KR_UNIAXIAL_X, KR_ISOTROPIC, KR_MEAN_OVER_AXES, KR_UNIAXIAL_Z,
+    KR_STRESS_X, KR_STRESS_Y, KR_STRESS_Z, KR_STRESS_OVER_AXES
+};
 enum kr_precision { KR_DOUBLE, KR_MIXED };
 enum kr_model { KR_PLANE_STRESS, KR_PLANE_STRAIN, KR_SOLID };
 enum kr_micromodulus { KR_CONSTANT, KR_CONICAL };

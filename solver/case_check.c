@@ -143,9 +143,12 @@ static void check_times(struct kr_deck *deck, const struct kr_case *c) {
 }
 
 static void check_deformation(struct kr_deck *deck, const struct kr_case *c) {
-    if (c->surface_deformation == KR_UNIAXIAL_Z && c->model <= KR_PLANE_STRAIN)
+    int along_z = c->surface_deformation == KR_UNIAXIAL_Z || c->surface_deformation == KR_STRESS_Z;
+    char word[32];
+    kr_case_word(KR_DEFORMATION_WORDS, along_z ? c->surface_deformation : 0, word);
+    if (along_z && c->model <= KR_PLANE_STRAIN)
         kr_deck_fault(deck, &c->surface_deformation,
-                      "uniaxial-z is for bodies in 3D; a plate has x and y");
+                      "%s is for bodies in 3D; a plate has x and y", word);
 }
 
 static void check_law(struct kr_deck *deck, const struct kr_case *c) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Cell lists. Points are counted into square bins of the reach's width (a counting sort, so each
- * bin holds its points in ascending order); the neighbours of a point lie in its bin and the 8
- * (26 in 3D) around it. Where points are few and far between, bins are wider.
+ * Cell lists. Points are counted into square bins of half the reach in width (a counting sort, so
+ * each bin holds its points in ascending order); the neighbours of a point lie in its bin and those
+ * up to two away, where these come near enough. Where points are few and far between, bins are wider.
  */
 #include "search.h"
 
@@ -10,6 +10,8 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 struct kr_search {
     int dim;
@@ -58,7 +60,7 @@ static void find_bounds(struct kr_search *s, size_t n) {
 struct kr_search *kr_search_create(int dim, size_t n, const double *position, double reach) {
     kr_assert(reach > 0 && (dim == 2 || dim == 3));
     struct kr_search *s = KR_NEW(struct kr_search, 1);
-    *s = (struct kr_search){.dim = dim, .position = position, .reach = reach, .width = reach};
+    *s = (struct kr_search){.dim = dim, .position = position, .reach = reach, .width = 0.5 * reach};
     find_bounds(s, n);
     size_t bins = (size_t)(s->bins[0] * s->bins[1] * s->bins[2]);
     s->first = KR_NEW(size_t, bins + 1);
@@ -87,42 +89,91 @@ void kr_search_free(struct kr_search *s) {
     kr_free(s);
 }
 
+static int compare(const void *a, const void *b) {
+    return (*(const int *)a > *(const int *)b) - (*(const int *)a < *(const int *)b);
+}
+
+/* End of the ascending run that begins at `from`. */
+static size_t run_end(const int *a, size_t from, size_t n) {
+    size_t k = from + 1;
+    while (k < n && a[k - 1] < a[k])
+        k++;
+    return k < n ? k : n;
+}
+
+/* Merge the runs of a in pairs into b; returns how many pairs (or single last runs) there were. */
+static size_t merge_runs(const int *a, size_t n, int *b) {
+    size_t pairs = 0;
+    for (size_t at = 0; at < n; pairs++) {
+        size_t p = at, middle = run_end(a, at, n), q = middle;
+        size_t end = middle < n ? run_end(a, middle, n) : n;
+        for (; at < end; at++)
+            b[at] = q == end || (p < middle && a[p] < a[q]) ? a[p++] : a[q++];
+    }
+    return pairs;
+}
+
+/* The points of each bin are a run already. */
 static void sort_ascending(int *a, size_t n) {
-    for (size_t k = 1; k < n; k++) {
-        int value = a[k];
-        size_t m = k;
-        for (; m > 0 && a[m - 1] > value; m--)
-            a[m] = a[m - 1];
-        a[m] = value;
+    enum { MOST = 4096 };
+    int other[MOST];
+    if (n > MOST) {
+        qsort(a, n, sizeof *a, compare);
+        return;
+    }
+    for (size_t pairs = 2; pairs > 1;) {
+        pairs = merge_runs(a, n, other);
+        memcpy(a, other, n * sizeof *a);
     }
 }
 
-size_t kr_search_near(const struct kr_search *s, size_t i, int *near, size_t room) {
-    size_t found = 0, dim = (size_t)s->dim;
+/* Square of the distance from a place to bin number k along d; 0 within it. The width is stretched by
+ * what rounding may have moved a point over a bin's edge. */
+static double square_to(const struct kr_search *s, const double *here, int d, long k) {
+    const double edge = 1e-9 * s->width;
+    double low = s->lower[d] + (double)k * s->width - edge, high = low + s->width + 2 * edge;
+    double away = here[d] < low ? low - here[d] : here[d] > high ? here[d] - high : 0;
+    return away * away;
+}
+
+/* The points of bin b within the reach; returns the new number found. */
+static size_t look_into(const struct kr_search *s, size_t b, size_t i, int *near, size_t room,
+                        size_t found) {
+    const size_t dim = (size_t)s->dim;
     const double *here = s->position + i * dim;
-    long at[3], bin[3];
-    bin_of(s, i, at);
-    long deep = dim == 3;
-    for (bin[2] = at[2] - deep; bin[2] <= at[2] + deep; bin[2]++)
-        for (bin[1] = at[1] - 1; bin[1] <= at[1] + 1; bin[1]++)
-            for (bin[0] = at[0] - 1; bin[0] <= at[0] + 1; bin[0]++) {
-                if (bin[0] < 0 || bin[1] < 0 || bin[2] < 0 || bin[0] >= s->bins[0] ||
-                    bin[1] >= s->bins[1] || bin[2] >= s->bins[2])
-                    continue;
-                size_t b = bin_number(s, bin);
-                for (size_t k = s->first[b]; k < s->first[b + 1]; k++) {
-                    size_t j = (size_t)s->member[k];
-                    double square = 0;
-                    for (size_t d = 0; d < dim; d++)
-                        square += (s->position[j * dim + d] - here[d]) *
-                                  (s->position[j * dim + d] - here[d]);
-                    if (square > s->reach * s->reach || j == i)
-                        continue;
-                    if (found < room)
-                        near[found] = (int)j;
-                    found++;
-                }
-            }
+    for (size_t k = s->first[b]; k < s->first[b + 1]; k++) {
+        size_t j = (size_t)s->member[k];
+        double square = 0;
+        for (size_t d = 0; d < dim; d++)
+            square +=
+                (s->position[j * dim + d] - here[d]) * (s->position[j * dim + d] - here[d]);
+        if (square > s->reach * s->reach || j == i)
+            continue;
+        if (found < room)
+            near[found] = (int)j;
+        found++;
+    }
+    return found;
+}
+
+size_t kr_search_near(const struct kr_search *s, size_t i, int *near, size_t room) {
+    const double *here = s->position + i * (size_t)s->dim, most = s->reach * s->reach;
+    long low[3] = {0}, high[3] = {0}, bin[3];
+    size_t found = 0;
+    bin_of(s, i, bin);
+    for (int d = 0; d < s->dim; d++) {
+        low[d] = bin[d] > 2 ? bin[d] - 2 : 0;
+        high[d] = bin[d] + 2 < s->bins[d] ? bin[d] + 2 : s->bins[d] - 1;
+    }
+    for (bin[2] = low[2]; bin[2] <= high[2]; bin[2]++) {
+        double z = s->dim == 3 ? square_to(s, here, 2, bin[2]) : 0;
+        for (bin[1] = low[1]; bin[1] <= high[1]; bin[1]++) {
+            double yz = z + square_to(s, here, 1, bin[1]);
+            for (bin[0] = low[0]; bin[0] <= high[0]; bin[0]++)
+                if (yz + square_to(s, here, 0, bin[0]) <= most)
+                    found = look_into(s, bin_number(s, bin), i, near, room, found);
+        }
+    }
     if (found <= room)
         sort_ascending(near, found);
     return found;

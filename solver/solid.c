@@ -68,6 +68,36 @@ size_t kr_solid_face(size_t n, const size_t *cell, size_t face, size_t *vertex) 
     return kept;
 }
 
+/** Whether two triangles have the same corners. Those of two tetrahedra of one polyhedron then look in
+ *  opposite senses. */
+static int is_same(const int64_t *a, const int64_t *b) {
+    for (int k = 0; k < 3; k++)
+        if (a[k] != b[0] && a[k] != b[1] && a[k] != b[2])
+            return 0;
+    return 1;
+}
+
+size_t kr_solid_outside(size_t n, const int64_t *cell, unsigned short *triangle) {
+    size_t count = 0;
+    for (size_t f = 0; f < n; f++) {
+        unsigned short *side = triangle + 3 * count;
+        for (int k = 0; k < 3; k++)
+            side[k] = (unsigned short)(f / 4 * 4 + solids[0].face[f % 4][k]);
+        const int64_t here[3] = {cell[side[0]], cell[side[1]], cell[side[2]]};
+        size_t other = 0;
+        for (; other < count; other++) {
+            const unsigned short *t = triangle + 3 * other;
+            if (is_same(here, (const int64_t[]){cell[t[0]], cell[t[1]], cell[t[2]]}))
+                break;
+        }
+        if (other == count)
+            count++;
+        else /* it lies within */
+            memmove(triangle + 3 * other, triangle + 3 * --count, 3 * sizeof *triangle);
+    }
+    return count;
+}
+
 /** Weights of corners and of the middles of edges in the middle of a face. */
 static void shares(size_t n, double *corner, double *middle) {
     *corner = n == 6 ? -1.0 / 9 : n == 8 ? -1.0 / 4 : 1 / (double)n;

@@ -23,6 +23,7 @@
 #define KR_SOLID_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 enum { KR_MOST_SOLID = 20, KR_MOST_FACE = 8 };
 
@@ -56,6 +57,15 @@ size_t kr_solid_n_faces(size_t vertices);
  *  returns their number; less than 3: the face has collapsed
  */
 size_t kr_solid_face(size_t n, const size_t *cell, size_t face, size_t *vertex);
+
+/** The triangles on the outside of a polyhedron: sides of just one of its tetrahedra. Sides of two lie
+ *  within it, where what they add to any sum over faces cancels.
+ *
+ *  in   n, cell   the vertices of its n/4 tetrahedra, as numbers that tell equal points
+ *  out  triangle  (up to n x 3) places in `cell`, 0 to n - 1, counter-clockwise seen from outside
+ *  returns their number
+ */
+size_t kr_solid_outside(size_t n, const int64_t *cell, unsigned short *triangle);
 
 /** The point in the middle of a face, by the rule above.
  *

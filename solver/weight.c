@@ -89,6 +89,25 @@ static void measure_cells(struct kr_weights *w) {
     }
 }
 
+/* The outsides of the polyhedra, which have a third or so of the sides of their tetrahedra. */
+static void find_outsides(struct kr_weights *w) {
+    const struct kr_nodes *nodes = w->nodes;
+    size_t sides = 0;
+    for (size_t i = 0; i < nodes->n; i++)
+        sides += kr_solid_is_pieces(corners_of(nodes, i)) ? corners_of(nodes, i) : 0;
+    if (!sides)
+        return;
+    w->first_side = KR_NEW(size_t, nodes->n + 1);
+    w->side = KR_NEW(unsigned short, 3 * sides);
+    for (size_t i = 0; i < nodes->n; i++) {
+        size_t n = corners_of(nodes, i), first = w->first_side[i];
+        w->first_side[i + 1] = first;
+        if (kr_solid_is_pieces(n))
+            w->first_side[i + 1] +=
+                kr_solid_outside(n, nodes->vertex + nodes->first[i], w->side + 3 * first);
+    }
+}
+
 struct kr_weights *kr_weights_create(const struct kr_nodes *nodes, double horizon,
                                      int partial_volume) {
     struct kr_weights *w = KR_NEW(struct kr_weights, 1);
@@ -102,12 +121,16 @@ struct kr_weights *kr_weights_create(const struct kr_nodes *nodes, double horizo
     w->reach = kr_weight_reach(partial_volume, horizon, largest);
     if (is_exact(partial_volume))
         measure_cells(w);
+    if (is_exact(partial_volume) && nodes->dim == 3)
+        find_outsides(w);
     return w;
 }
 
 void kr_weights_free(struct kr_weights *w) {
     kr_free(w->size);
     kr_free(w->radius);
+    kr_free(w->first_side);
+    kr_free(w->side);
     kr_free(w->first_kept);
     kr_free(w->kept_with);
     kr_free(w->kept);
@@ -147,6 +170,21 @@ static struct part over_volume(struct kr_ball_part part, double volume) {
         {part.moment[0] / volume, part.moment[1] / volume, part.moment[2] / volume}};
 }
 
+/* The part of cell j inside the sphere about the origin. */
+static struct kr_ball_part ball_part(const struct kr_weights *w, size_t j, size_t n,
+                                     const double *corner) {
+    struct kr_ball_part sum = {0};
+    double triangle[9];
+    if (!kr_solid_is_pieces(n))
+        return kr_ball_solid(n, corner, w->horizon);
+    for (size_t k = w->first_side[j]; k < w->first_side[j + 1]; k++) {
+        for (size_t c = 0; c < 9; c++)
+            triangle[c] = corner[3 * (size_t)w->side[3 * k + c / 3] + c % 3];
+        kr_ball_add_face(3, triangle, w->horizon, &sum);
+    }
+    return sum;
+}
+
 static struct part part_of(const struct kr_weights *w, size_t i, size_t j) {
     const struct kr_nodes *nodes = w->nodes;
     size_t dim = (size_t)nodes->dim, n = corners_of(nodes, j);
@@ -164,7 +202,7 @@ static struct part part_of(const struct kr_weights *w, size_t i, size_t j) {
     if (side)
         return side > 0 ? whole : (struct part){0};
     return dim == 2 ? over_area(kr_disc_polygon(n, corner, w->horizon), nodes->volume[j])
-                    : over_volume(kr_ball_solid(n, corner, w->horizon), nodes->volume[j]);
+                    : over_volume(ball_part(w, j, n, corner), nodes->volume[j]);
 }
 
 /* The bond's weight from what each end sees of the other: the mean of both, (10a); with the
@@ -251,6 +289,8 @@ static void keep_all(struct kr_weights *w, const struct kr_search *search,
         int *near = KR_NEW(int, MOST_NEAR);
 #pragma omp for schedule(dynamic, 256)
         for (size_t i = 0; i < w->nodes->n; i++) {
+            if (fill && w->first_kept[i] == w->first_kept[i + 1])
+                continue;
             size_t count = keep_of(w, search, on_lattice, i, near, fill);
             if (!fill)
                 w->first_kept[i + 1] = count;

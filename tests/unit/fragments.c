@@ -64,7 +64,7 @@ static void tree_fragments_of_a_cut_plate(void **state) {
         v[3 * i + 2] = 0;
     }
     cut(r, 7, 0);
-    kr_fragments_find(r, &c, v, &f);
+    kr_fragments_find(r, &c, NULL, v, &f);
     assert_int_equal(f.count, 2);
     assert_int_equal(f.item[0].count, 17 * ROWS);
     assert_int_equal(f.item[1].count, 7 * ROWS);
@@ -87,7 +87,7 @@ static void tree_fragments_hang_by_one_bond(void **state) {
     struct kr_fragments f;
     (void)state;
     cut(r, 7, 1);
-    kr_fragments_find(r, &c, NULL, &f);
+    kr_fragments_find(r, &c, NULL, NULL, &f);
     assert_int_equal(f.count, 1);
     assert_true(isnan(f.item[0].momentum[0]));
     kr_check_near(f.item[0].extent, hypot(23, 10) * spacing, 1e-15);
@@ -97,12 +97,14 @@ static void tree_fragments_hang_by_one_bond(void **state) {
 /** A pre-crack's bonds are in no list: it is cut anew. */
 static void tree_fragments_know_the_precrack(void **state) {
     struct kr_record *r = plate();
-    struct kr_case_crack crack = {{11.5 * spacing, -1, 0}, {11.5 * spacing, 1, 0}};
+    struct kr_case_crack crack = {{11.5 * spacing, -1}, {11.5 * spacing, 1}};
     struct kr_case c = {.partial_volume = KR_PARTIAL_VOLUME_HHB,
                         .cracks = {.item = &crack, .count = 1}};
     struct kr_fragments f;
+    struct kr_precrack *cut = kr_precrack_create(&crack, NULL);
     (void)state;
-    kr_fragments_find(r, &c, NULL, &f);
+    kr_fragments_find(r, &c, &cut, NULL, &f);
+    kr_precrack_free(cut);
     assert_int_equal(f.count, 2);
     assert_int_equal(f.item[0].count, 12 * ROWS);
     assert_int_equal(f.item[0].first, 0); /* equal masses: the lower node first */
