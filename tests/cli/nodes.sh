@@ -326,7 +326,7 @@ check solids_need_a_model stops 2 "is a mesh of solids" "$build/kirsch-nodes" "$
 
 # Writing: Exodus by netCDF4, VTU by meshio, text by ourselves.
 written() {
-    convert "$work/b_msh41.msh" --write peridigm,exodus,vtu,csv || return 1
+    convert "$work/b_msh41.msh" --write peridigm,exodus,vtu,inp,csv || return 1
     convert "$work/p_msh41.msh" --write vtu,dat,peridigm --thickness "10 mm" || return 1
     $python - "$work" <<'PY'
 import sys
@@ -335,11 +335,16 @@ work = sys.argv[1]
 with h5py.File(f"{work}/b_msh41.nodes.h5") as f:
     volume, position = f["nodes/volume"][:], f["nodes/position"][:]
     floor = f["sets/floor"][:]
+    f_first, f_vertex = f["cells/first"][:], f["cells/vertex"][:]
 vtu = meshio.read(f"{work}/b_msh41.vtu")
 assert {c.type: len(c.data) for c in vtu.cells} == {"hexahedron": 24, "wedge": 24} or \
     sum(len(c.data) for c in vtu.cells) == 48
 assert np.allclose(np.concatenate(vtu.cell_data["Volume"]).sum(), 2, atol=1e-13)
 assert np.concatenate(vtu.cell_data["floor"]).sum() == len(floor)
+inp = meshio.read(f"{work}/b_msh41.inp")
+assert {c.type: len(c.data) for c in inp.cells} == {"hexahedron": 24, "wedge": 24}
+corners = np.unique(np.concatenate([f_vertex[a:b] for a, b in zip(f_first[floor], f_first[floor + 1])]))
+assert np.array_equal(np.sort(inp.point_sets["floor"]), corners)
 with netCDF4.Dataset(f"{work}/b_msh41.e") as nc:
     assert nc["connect1"].elem_type == "SPHERE"
     assert np.array_equal(nc["attrib1"][:, 1], volume)
