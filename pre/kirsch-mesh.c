@@ -34,20 +34,19 @@ static struct kr_mesh *mesh_plate(const struct kr_plate *plate) {
 
 static struct kr_mesh *mesh_block(const struct kr_plate *plate, const struct kr_case *c,
                                   const struct kr_deck *deck) {
-    struct kr_case_void *hollow = KR_NEW(struct kr_case_void, c->voids.count);
+    size_t n_voids;
+    struct kr_case_void *hollow = kr_case_voids(c, &n_voids);
     struct kr_case_stl body = c->body;
-    struct kr_block block = {*plate, c->depth, c->voids.count, hollow, NULL};
+    struct kr_block block = {*plate, c->depth, n_voids, hollow, NULL};
     struct kr_block_report report;
     body.file = path_of(deck, c->body.file);
     block.body = body.file ? &body : NULL;
-    for (size_t k = 0; k < c->voids.count; k++) {
-        hollow[k] = ((const struct kr_case_void *)c->voids.item)[k];
+    for (size_t k = 0; k < n_voids; k++)
         hollow[k].file = path_of(deck, hollow[k].file);
-    }
     struct kr_mesh *mesh = kr_block_mesh(&block, &report);
     kr_quality_solid_print(mesh, &block, &report);
     kr_block_report_free(&report);
-    for (size_t k = 0; k < c->voids.count; k++)
+    for (size_t k = 0; k < n_voids; k++)
         kr_free((char *)hollow[k].file);
     kr_free((char *)body.file);
     kr_free(hollow);

@@ -31,16 +31,20 @@ static char *rules_of(const struct kr_case *c) {
                       ? kr_text(" %s", word)
                       : kr_text(" %s of mean %g m, deviation %g m", word, p->mean, p->deviation);
     char *rules =
-        kr_text("# x y %s [m]; seed %lld, radius %g to %g m%s, %g diameters from the edges, gap %g "
+        kr_text("# x y %s%s [m]; seed %lld, radius %g to %g m%s, %g diameters from the edges, gap %g "
                 "m\n",
-                p->shape == KR_PORE_CIRCLE ? "radius" : "long short, degrees", (long long)p->seed,
+                p->shape == KR_PORE_SPHERE ? "z " : "",
+                p->shape == KR_PORE_ELLIPSE ? "long short, degrees" : "radius", (long long)p->seed,
                 p->radius[0], p->radius[1], sizes, p->edge_diameters, p->gap);
     kr_free(sizes);
     return rules;
 }
 
-static void write_hole(FILE *file, const struct kr_case_hole *hole) {
+/** z: where it is a sphere; NULL where it goes through. */
+static void write_hole(FILE *file, const struct kr_case_hole *hole, const double *z) {
     fprintf(file, "%.9f %.9f ", hole->centre[0], hole->centre[1]);
+    if (z)
+        fprintf(file, "%.9f ", *z);
     if (hole->shape == KR_HOLE_CIRCLE)
         fprintf(file, "%.9f\n", hole->radius);
     else
@@ -48,15 +52,15 @@ static void write_hole(FILE *file, const struct kr_case_hole *hole) {
                 hole->angle * 180 / M_PI);
 }
 
-static void write_pores(const struct kr_case *c, const struct kr_case_hole *hole, size_t n,
-                        const char *path) {
+static void write_pores(const struct kr_case *c, const struct kr_case_hole *hole, const double *z,
+                        size_t n, const char *path) {
     char *beside = kr_text("%s.tmp", path), *rules = rules_of(c);
     FILE *file = fopen(beside, "w");
     if (!file)
         kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", beside, strerror(errno));
     fputs(rules, file);
     for (size_t k = 0; k < n; k++)
-        write_hole(file, &hole[k]);
+        write_hole(file, &hole[k], c->pores.shape == KR_PORE_SPHERE ? &z[k] : NULL);
     int failed = ferror(file) | fclose(file);
     if (failed || rename(beside, path))
         kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s; free some space and run again", path,
@@ -96,9 +100,15 @@ static void make_pores(struct kr_deck *deck, const struct kr_case *c, const char
         kr_stop(KR_EXIT_INPUT,
                 "%s: %g %% of the outline is less than half of one pore of the least radius",
                 kr_deck_where(deck, &c->pores.porosity), 100 * c->pores.porosity);
-    write_pores(c, pores.hole, pores.placed, path);
+    write_pores(c, pores.hole, pores.z, pores.placed, path);
+    double share = pores.area / pores.outline;
+    if (c->pores.shape == KR_PORE_SPHERE) {
+        share = 0;
+        for (size_t k = 0; k < pores.placed; k++)
+            share += 4 * M_PI / 3 * pow(pores.hole[k].radius, 3) / (pores.outline * c->depth);
+    }
     kr_say("  %zu pores in %lld throws, porosity %.2f %%", pores.placed, (long long)pores.throws,
-           100 * pores.area / pores.outline);
+           100 * share);
     kr_pores_free(&pores);
 }
 
@@ -107,7 +117,7 @@ static void take_pores(const struct kr_case *c, const char *path) {
     struct kr_case_hole *hole = kr_case_read_pores(c, c->pores.file, &n);
     if (!n)
         kr_stop(KR_EXIT_INPUT, "%s holds no pores", c->pores.file);
-    write_pores(c, hole, n, path);
+    write_pores(c, hole, NULL, n, path);
     kr_say("  %zu pores from %s", n, c->pores.file);
     kr_free(hole);
 }

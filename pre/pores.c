@@ -20,15 +20,16 @@ __extension__ typedef __int128 wide;
 
 /* A pore, or a hole of the deck as the circle around it; nanometres. */
 struct pore {
-    int64_t x, y;
+    int64_t x, y, z;
     struct kr_pore_size size;
+    int goes_through; /* along z: a hole of the deck, or any pore of a plate */
 };
 
 /* What a throw needs. */
 struct throwing {
     const struct kr_case *c;
     struct kr_room room;
-    int64_t width, height, gap;
+    int64_t width, height, depth, gap;
     uint64_t state;
     size_t n, space; /* the deck's holes first */
     struct pore *pore;
@@ -41,7 +42,8 @@ static int64_t nanometres(double metres) {
 /* Whether two pores keep the gap: centres apart by both radii and the gap, squared as integers. */
 static int are_apart(const struct pore *a, const struct pore *b, int64_t gap) {
     wide dx = a->x - b->x, dy = a->y - b->y, least = a->size.radius + b->size.radius + gap;
-    return dx * dx + dy * dy >= least * least;
+    wide dz = a->goes_through || b->goes_through ? 0 : a->z - b->z;
+    return dx * dx + dy * dy + dz * dz >= least * least;
 }
 
 /* Draw the place of a pore; 0 if it does not fit there. */
@@ -51,10 +53,14 @@ static int place(struct throwing *t, struct pore *pore) {
     int64_t apart = pore->size.radius + (t->gap > 0 ? t->gap : 1);
     if (edge < apart)
         edge = apart;
-    if (2 * edge > t->width || 2 * edge > t->height)
+    int is_sphere = t->c->pores.shape == KR_PORE_SPHERE;
+    if (2 * edge > t->width || 2 * edge > t->height || (is_sphere && 2 * edge > t->depth))
         return 0;
     pore->x = kr_random_between(&t->state, edge, t->width - edge);
     pore->y = kr_random_between(&t->state, edge, t->height - edge);
+    if (is_sphere)
+        pore->z = kr_random_between(&t->state, edge, t->depth - edge);
+    pore->goes_through = !is_sphere;
     for (size_t k = 0; k < t->n; k++)
         if (!are_apart(pore, &t->pore[k], t->gap))
             return 0;
@@ -72,7 +78,7 @@ static void take_holes(struct throwing *t) {
     const struct kr_case_hole *hole = t->c->holes.item;
     for (size_t k = 0; k < t->c->holes.count; k++) {
         double centre[2], radius = kr_case_hole_reach(&hole[k], centre);
-        struct pore pore = {nanometres(centre[0]), nanometres(centre[1]), {0}};
+        struct pore pore = {nanometres(centre[0]), nanometres(centre[1]), 0, {0}, 1};
         pore.size.radius = nanometres(radius) + 1;
         keep(t, &pore);
     }
@@ -115,7 +121,7 @@ static struct kr_case_hole hole_of(const struct kr_case *c, const struct pore *p
     struct kr_case_hole hole = {
         {(double)pore->x / NANOMETRES_A_METRE, (double)pore->y / NANOMETRES_A_METRE},
         (double)pore->size.radius / NANOMETRES_A_METRE};
-    if (c->pores.shape == KR_PORE_CIRCLE)
+    if (c->pores.shape != KR_PORE_ELLIPSE)
         return hole;
     hole.shape = KR_HOLE_ELLIPSE;
     hole.radii[0] = hole.radius;
@@ -130,6 +136,7 @@ struct kr_pores kr_pores_throw(const struct kr_case *c) {
                          .room = kr_room_of(c),
                          .width = nanometres(c->width),
                          .height = nanometres(c->height),
+                         .depth = nanometres(c->depth),
                          .gap = nanometres(c->pores.gap),
                          .state = (uint64_t)c->pores.seed};
     struct kr_pores out = {.outline = t.room.area};
@@ -140,7 +147,9 @@ struct kr_pores kr_pores_throw(const struct kr_case *c) {
         throw_porosity(&t, &out);
     out.placed = t.n - c->holes.count;
     out.hole = KR_NEW(struct kr_case_hole, out.placed);
+    out.z = KR_NEW(double, out.placed);
     for (size_t k = 0; k < out.placed; k++) {
+        out.z[k] = (double)t.pore[c->holes.count + k].z / NANOMETRES_A_METRE;
         out.hole[k] = hole_of(c, &t.pore[c->holes.count + k]);
         out.area += area_of(&t.pore[c->holes.count + k].size);
     }
@@ -151,5 +160,6 @@ struct kr_pores kr_pores_throw(const struct kr_case *c) {
 
 void kr_pores_free(struct kr_pores *pores) {
     kr_free(pores->hole);
+    kr_free(pores->z);
     *pores = (struct kr_pores){0};
 }

@@ -12,6 +12,7 @@ struct kr_pores {
     size_t placed;
     int64_t throws;
     struct kr_case_hole *hole; /* (placed) */
+    double *z;                 /* (placed) m: of the centres of spheres; 0 otherwise */
     double outline, area;      /* m^2: of the outline, and of the pores placed */
     double wanted_area;        /* m^2: of all pores wanted; 0 by a count */
 };
@@ -20,7 +21,7 @@ struct kr_pores {
  *  places at least `edge_diameters` of the pore's own diameters from each edge, thrown again if the
  *  rim comes nearer than `gap` to that of another pore or of a hole of the deck. A pore keeps the
  *  gap (a nanometre at least) from the edges, too, where edge_diameters alone would let it touch
- *  them. Ellipses and holes that are no circles count as the circles around them.
+ *  them. Spheres (pores.shape) keep the same from front and back, and the gap in space. Ellipses and holes that are no circles count as the circles around them.
  *
  *  By a count, each throw draws its own size. By a porosity all sizes are drawn first and placed
  *  one after the other, the largest first.

@@ -101,7 +101,8 @@ static const struct kr_deck_key pores_keys[] = {
              "([formats.md](formats.md#porestxt))."},
     {"shape", KR_DECK_CHOICE, PORES_AT(shape), .words = KR_PORE_WORDS, .fallback = "circle",
      .text = "`ellipse`: at random angles, the radius its long half axis; distances are kept by "
-             "the circle around it."},
+             "the circle around it; `sphere`, in a solid: voids at random places in space, in place of holes "
+             "through it; the rules hold for them with front and back among the edges."},
     {"aspect", KR_DECK_VECTOR, PORES_AT(aspect), .unit = "1", .count = 2, .fallback = "",
      .least = 1, .most = 100,
      .text = "Least and largest ratio of an ellipse's half axes, drawn evenly between the two."},

@@ -13,7 +13,7 @@
 #define KR_HOLE_WORDS "circle ellipse rectangle polygon slot"
 #define KR_OUTLINE_WORDS "rectangle polygon disc ring cad"
 #define KR_OPERATION_WORDS "union difference"
-#define KR_PORE_WORDS "circle ellipse"
+#define KR_PORE_WORDS "circle ellipse sphere"
 #define KR_DISTRIBUTION_WORDS "uniform normal lognormal by-area"
 #define KR_VOID_WORDS "sphere ellipsoid cylinder stl"
 #define KR_PARTIAL_VOLUME_WORDS "hhb none hhb-one-sided exact exact-centroid"
@@ -52,7 +52,7 @@ enum kr_outline {
     KR_OUTLINE_CAD
 };
 enum kr_operation { KR_UNION, KR_DIFFERENCE };
-enum kr_pore { KR_PORE_CIRCLE, KR_PORE_ELLIPSE };
+enum kr_pore { KR_PORE_CIRCLE, KR_PORE_ELLIPSE, KR_PORE_SPHERE };
 enum kr_distribution { KR_UNIFORM, KR_NORMAL, KR_LOGNORMAL, KR_BY_AREA };
 enum kr_void_shape { KR_VOID_SPHERE, KR_VOID_ELLIPSOID, KR_VOID_CYLINDER, KR_VOID_STL };
 enum kr_partial_volume {
@@ -366,5 +366,9 @@ int kr_case_is_rectangle(const struct kr_case_outline *outline);
 /** All holes: those of the deck and, where `pores` is given, those that kirsch-pores left in
  *  pores.txt of the folder. Owned by the caller (kr_free). Stops if pores.txt is missing or bad. */
 struct kr_case_hole *kr_case_holes(const struct kr_case *c, size_t *count);
+
+/** The voids of a case: those of the deck, then the spheres of pores.txt where its pores are such. Owned by
+ *  the caller (kr_free); files of STL voids are the deck's. Stops (exit 2) where pores.txt is bad. */
+struct kr_case_void *kr_case_voids(const struct kr_case *c, size_t *count);
 
 #endif

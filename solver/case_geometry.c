@@ -260,8 +260,9 @@ static void check_distribution(struct kr_deck *deck, const struct kr_case_pores 
         kr_deck_fault(deck, pores->aspect,
                       "missing; expected least and largest ratio of the half axes, such as [1, 2], "
                       "for shape ellipse");
-    else if (pores->shape == KR_PORE_CIRCLE && kr_deck_given(deck, pores->aspect))
-        kr_deck_fault(deck, pores->aspect, "shape circle has no aspect");
+    else if (pores->shape != KR_PORE_ELLIPSE && kr_deck_given(deck, pores->aspect))
+        kr_deck_fault(deck, pores->aspect, "shape %s has no aspect",
+                      pores->shape == KR_PORE_SPHERE ? "sphere" : "circle");
     else if (pores->aspect[0] > pores->aspect[1])
         kr_deck_fault(deck, pores->aspect, "the least, %g, is more than the largest, %g",
                       pores->aspect[0], pores->aspect[1]);
@@ -271,6 +272,11 @@ static void check_pores(struct kr_deck *deck, const struct kr_case *c) {
     const struct kr_case_pores *pores = &c->pores;
     double least = pores->radius[0], most = pores->radius[1];
     int has_file = pores->file && *pores->file;
+    if (pores->shape == KR_PORE_SPHERE && !(c->depth > 0))
+        kr_deck_fault(deck, &pores->shape, "spheres need a solid; expected geometry.depth: 10 mm");
+    else if (pores->shape == KR_PORE_SPHERE && (pores->porosity > 0 || has_file || c->voids.count))
+        kr_deck_fault(deck, &pores->shape,
+                      "random spheres go by a count, without a porosity, a file, or other voids");
     if ((pores->count > 0) + (pores->porosity > 0) + has_file > 1)
         kr_deck_fault(deck, has_file ? (const void *)&pores->file : &pores->porosity,
                       "pores are given by just one of count, porosity and file");
@@ -288,7 +294,8 @@ static void check_pores(struct kr_deck *deck, const struct kr_case *c) {
     else if (2 * most > fmin(c->width, c->height) && c->width > 0 && c->height > 0)
         kr_deck_fault(deck, &pores->radius[1],
                       "a pore of %g m in diameter does not fit into the plate", 2 * most);
-    else if ((double)pores->count * M_PI * least * least > c->width * c->height)
+    else if (pores->shape != KR_PORE_SPHERE &&
+             (double)pores->count * M_PI * least * least > c->width * c->height)
         kr_deck_fault(deck, &pores->count,
                       "%lld pores of %g m in radius have more area than the plate",
                       (long long)pores->count, least);

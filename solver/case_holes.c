@@ -117,7 +117,7 @@ struct kr_case_hole *kr_case_holes(const struct kr_case *c, size_t *count) {
     *count = c->holes.count;
     if (*count)
         memcpy(holes, c->holes.item, *count * sizeof *holes);
-    if (!kr_case_has_pores(c))
+    if (!kr_case_has_pores(c) || c->pores.shape == KR_PORE_SPHERE)
         return holes;
     char *path = kr_case_file(c, "pores.txt");
     holes = read_pores(c, path, "kirsch-pores makes it", holes, count);
@@ -126,4 +126,59 @@ struct kr_case_hole *kr_case_holes(const struct kr_case *c, size_t *count) {
                 (long long)c->pores.count);
     kr_free(path);
     return holes;
+}
+
+/* Read a line "x y z radius"; returns 1, 0 for a line without numbers, -1 if it is bad. */
+static int read_sphere(const char *line, struct kr_case_void *sphere) {
+    double value[4];
+    char rest = '#';
+    int found = sscanf(line, "%lf %lf %lf %lf %c", &value[0], &value[1], &value[2], &value[3], &rest);
+    *sphere = (struct kr_case_void){.shape = KR_VOID_SPHERE};
+    if (found <= 0)
+        return line[strspn(line, " \t\r\n")] == '#' || !line[strspn(line, " \t\r\n")] ? 0 : -1;
+    if (found < 4 || rest != '#' || !(value[3] > 0))
+        return -1;
+    memcpy(sphere->centre, value, sizeof sphere->centre);
+    sphere->radius = value[3];
+    return 1;
+}
+
+static int is_within(const struct kr_case *c, const struct kr_case_void *sphere) {
+    const double size[3] = {c->width, c->height, c->depth};
+    double away = 0;
+    for (int d = 0; d < 3; d++)
+        away = hypot(away, fmax(fmax(-sphere->centre[d], sphere->centre[d] - size[d]), 0));
+    return away < sphere->radius && 2 * sphere->radius <= fmax(fmax(size[0], size[1]), size[2]);
+}
+
+struct kr_case_void *kr_case_voids(const struct kr_case *c, size_t *count) {
+    size_t room = c->voids.count, line_room = 0;
+    struct kr_case_void *voids = KR_NEW(struct kr_case_void, room), sphere;
+    char *line = NULL;
+    *count = c->voids.count;
+    if (*count)
+        memcpy(voids, c->voids.item, *count * sizeof *voids);
+    if (!kr_case_has_pores(c) || c->pores.shape != KR_PORE_SPHERE)
+        return voids;
+    char *path = kr_case_file(c, "pores.txt");
+    FILE *file = fopen(path, "r");
+    if (!file)
+        kr_stop(KR_EXIT_INPUT, "%s cannot be read: %s; kirsch-pores makes it", path, strerror(errno));
+    for (size_t number = 1; getline(&line, &line_room, file) >= 0; number++) {
+        int found = read_sphere(line, &sphere);
+        if (found < 0 || (found && !is_within(c, &sphere)))
+            kr_stop(KR_EXIT_INPUT,
+                    "%s:%zu: found '%.*s', expected 'x y z radius' in metres of a sphere in the body",
+                    path, number, (int)fmin((double)strcspn(line, "\r\n"), 60), line);
+        if (!found)
+            continue;
+        KR_GROW(voids, *count, room);
+        voids[(*count)++] = sphere;
+    }
+    if (ferror(file))
+        kr_stop(KR_EXIT_INPUT, "%s cannot be read to its end: %s", path, strerror(errno));
+    free(line);
+    fclose(file);
+    kr_free(path);
+    return voids;
 }
