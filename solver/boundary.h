@@ -16,6 +16,10 @@ struct kr_boundary; /* Opaque: boundary_private.h. */
  *  sets that belong to a boundary; what is wrong is a fault of the deck. */
 void kr_boundary_check(struct kr_deck *deck, const struct kr_case *c, const struct kr_nodes *nodes);
 
+/** The set named at `place`; NULL and a fault of the deck if there is none or nothing in it. */
+const struct kr_set *kr_boundary_find_set(struct kr_deck *deck, const char *const *place,
+                                          const struct kr_nodes *nodes);
+
 /** Loads (struct kr_case_load) of a case that has passed kr_boundary_check. A fault of the deck: two loads that
  *  prescribe the same component of a node. */
 struct kr_boundary *kr_boundary_create(struct kr_deck *deck, const struct kr_deck_list *loads,

@@ -36,9 +36,8 @@ static double volume_of(const struct kr_nodes *nodes, const struct kr_set *set) 
     return volume;
 }
 
-/* The set named at `place`; a fault of the deck if there is none or nothing in it. */
-static const struct kr_set *set_named(struct kr_deck *deck, const char *const *place,
-                                      const struct kr_nodes *nodes) {
+const struct kr_set *kr_boundary_find_set(struct kr_deck *deck, const char *const *place,
+                                          const struct kr_nodes *nodes) {
     char known[512] = "";
     const struct kr_set *set = kr_nodes_set(nodes, *place);
     if (set && set->count)
@@ -58,7 +57,7 @@ static void check_loads(struct kr_deck *deck, const struct kr_deck_list *list,
                         const struct kr_nodes *nodes) {
     const struct kr_case_load *load = list->item;
     for (size_t k = 0; k < list->count; k++) {
-        const struct kr_set *set = set_named(deck, &load[k].set, nodes);
+        const struct kr_set *set = kr_boundary_find_set(deck, &load[k].set, nodes);
         if (set && set->measure <= 0 && is_given(load[k].traction))
             kr_deck_fault(deck, &load[k].set,
                           "set '%s' belongs to no boundary, so a traction has no %s to act on; "
@@ -75,15 +74,27 @@ void kr_boundary_check(struct kr_deck *deck, const struct kr_case *c,
     for (size_t k = 0; k < c->stages.count; k++)
         check_loads(deck, &stage[k].loads, nodes);
     for (size_t k = 0; k < c->no_fail.count; k++)
-        set_named(deck, &name[k], nodes);
+        kr_boundary_find_set(deck, &name[k], nodes);
 }
 
-static void make_load(const struct kr_case_load *from, const struct kr_nodes *nodes,
-                      struct kr_load *load) {
+static struct kr_table *table_of(struct kr_deck *deck, const struct kr_case_load *from) {
+    if (!kr_deck_given(deck, &from->table_file))
+        return NULL;
+    char *path = kr_deck_beside(deck, from->table_file);
+    const char *column = kr_deck_given(deck, &from->table_column) ? from->table_column : NULL;
+    struct kr_table *table = kr_table_read(deck, &from->table_file, path, column);
+    kr_free(path);
+    return table;
+}
+
+static void make_load(struct kr_deck *deck, const struct kr_case_load *from,
+                      const struct kr_nodes *nodes, struct kr_load *load) {
     load->set = kr_nodes_set(nodes, from->set);
     const struct kr_deck_formula *formula = formulas_of(from, &load->kind);
     double share = formula == from->traction ? load->set->measure / volume_of(nodes, load->set) : 1;
     load->ramp = from->ramp;
+    load->table = table_of(deck, from);
+    load->repeats = from->table_repeats;
     for (int d = 0; d < nodes->dim; d++) {
         char *why = NULL;
         if (!formula[d].text || formula[d].is_free)
@@ -94,6 +105,10 @@ static void make_load(const struct kr_case_load *from, const struct kr_nodes *no
     }
 }
 
+static const double *place_of(const struct kr_nodes *nodes, size_t i) {
+    return nodes->position + i * (size_t)nodes->dim;
+}
+
 /* Two loads must not prescribe the same component of a node. */
 static void check_conflicts(struct kr_deck *deck, const struct kr_deck_list *loads,
                             const struct kr_boundary *b) {
@@ -102,6 +117,7 @@ static void check_conflicts(struct kr_deck *deck, const struct kr_deck_list *loa
     for (size_t k = 0; k < b->count; k++) {
         const struct kr_load *load = &b->load[k];
         int fault = 0;
+        size_t node = 0;
         if (load->kind == BODY_FORCE)
             continue;
         for (size_t m = 0; m < load->set->count && !fault; m++)
@@ -110,13 +126,15 @@ static void check_conflicts(struct kr_deck *deck, const struct kr_deck_list *loa
                 if (!load->part[d].expression)
                     continue;
                 fault = *at;
+                node = (size_t)load->set->node[m];
                 *at = (int)k + 1;
             }
         if (fault)
             kr_deck_fault(deck, &from[k].set,
-                          "sets '%s' and '%s' share nodes and both prescribe the same component; "
-                          "leave it 'free' in one of them",
-                          from[k].set, from[fault - 1].set);
+                          "sets '%s' and '%s' share nodes, such as the one at (%g, %g) mm, and both "
+                          "prescribe the same component; leave it 'free' in one of them",
+                          from[k].set, from[fault - 1].set, 1e3 * place_of(b->nodes, node)[0],
+                          1e3 * place_of(b->nodes, node)[1]);
     }
     kr_free(owner);
 }
@@ -128,16 +146,18 @@ struct kr_boundary *kr_boundary_create(struct kr_deck *deck, const struct kr_dec
     b->load = KR_NEW(struct kr_load, b->count);
     const struct kr_case_load *from = loads->item;
     for (size_t k = 0; k < b->count; k++)
-        make_load(&from[k], nodes, &b->load[k]);
+        make_load(deck, &from[k], nodes, &b->load[k]);
     check_conflicts(deck, loads, b);
     return b;
 }
 
 void kr_boundary_free(struct kr_boundary *b) {
-    for (size_t k = 0; k < b->count; k++)
+    for (size_t k = 0; k < b->count; k++) {
+        kr_table_free(b->load[k].table);
         for (int d = 0; d < 3; d++)
             if (b->load[k].part[d].expression)
                 kr_expression_free(b->load[k].part[d].expression);
+    }
     kr_free(b->load);
     kr_free(b);
 }
@@ -159,6 +179,8 @@ struct kr_load_value kr_load_value_begin(const struct kr_boundary *b, const stru
                                 double t) {
     struct kr_load_value v = {.boundary = b, .load = load, .part = &load->part[d], .t = t};
     v.ramp = load->ramp > 0 && t < load->ramp ? t / load->ramp : 1;
+    if (load->table)
+        v.ramp *= kr_table_value(load->table, t, load->repeats);
     v.varies = kr_expression_varies_in_space(v.part->expression);
     if (!v.varies)
         v.everywhere = value_at(&v, 0, 0, 0);

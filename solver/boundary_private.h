@@ -7,6 +7,7 @@
 
 #include "base/expression.h"
 #include "boundary.h"
+#include "table.h"
 
 enum kr_load_kind { BODY_FORCE, VELOCITY, DISPLACEMENT };
 
@@ -20,6 +21,8 @@ struct kr_load {
     const struct kr_set *set;
     enum kr_load_kind kind;
     double ramp;
+    struct kr_table *table; /* NULL: none */
+    int repeats;
     struct kr_load_part part[3];
     double reaction[3];
 };

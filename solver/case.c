@@ -271,6 +271,9 @@ static const struct kr_deck_key material_keys[] = {
      .text = "Stiffness of bonds over their length: `constant` up to the horizon, or `conical`, "
              "falling evenly to nothing there."},
     {"youngs_modulus", NUMBER_OF(AT(youngs_modulus), "Pa"), POSITIVE, .text = "Young's modulus."},
+    {"poissons_ratio", NUMBER_OF(AT(poissons_ratio), "1"), .fallback = "", .least = -1, .most = 0.5,
+     .text = "Need not be given: the bonds fix it. If it is, and is not the model's own, the deck is "
+             "refused."},
     {"density", NUMBER_OF(AT(density), "kg/m^3"), POSITIVE, .text = "Density."},
     {"fracture_energy", NUMBER_OF(AT(fracture_energy), "J/m^2"), .fallback = "0 J/m^2",
      NOT_NEGATIVE, .text = "Energy of a unit of crack area, G0; 0: the plate does not break."},
@@ -316,6 +319,18 @@ static const struct kr_deck_key cracks_keys[] = {
 #define LOAD_AT(field) offsetof(struct kr_case_load, field)
 #define LOAD_OF(where, si)                                                                         \
     .type = KR_DECK_FORMULAS, .offset = (where), .unit = (si), .count = 3, .fallback = ""
+static const struct kr_deck_key table_keys[] = {
+    {"file", KR_DECK_TEXT, LOAD_AT(table_file), .fallback = "",
+     .text = "CSV file, a path from the deck's folder: a line of names, the first `time [us]` in any "
+             "unit of time, then lines of numbers. Between them the factor goes in straight lines, after the "
+             "last it stays."},
+    {"column", KR_DECK_TEXT, LOAD_AT(table_column), .fallback = "",
+     .text = "Name of the column with the factor; not given: the second."},
+    {"repeat", KR_DECK_BOOLEAN, LOAD_AT(table_repeats), .fallback = "false",
+     .text = "After the last line begin with the first again (cyclic loads)."},
+    {NULL},
+};
+
 static const struct kr_deck_key load_keys[] = {
     {"set", KR_DECK_TEXT, LOAD_AT(set), .text = "Name of a set under `nodes.sets`."},
     {"displacement", LOAD_OF(LOAD_AT(displacement), "m"),
@@ -328,6 +343,9 @@ static const struct kr_deck_key load_keys[] = {
     {"body_force", LOAD_OF(LOAD_AT(body_force), "N/m^3"), .text = "Force per volume."},
     {"ramp", NUMBER_OF(LOAD_AT(ramp), "s"), .fallback = "0 s", NOT_NEGATIVE,
      .text = "The load grows evenly from 0 to its full value in this time; 0: at once."},
+    {"table", KR_DECK_SECTION, .keys = table_keys,
+     .text = "The load is what stands here times a factor from a table of measured or planned times: "
+             "`{set: top, displacement: [free, 1 mm], table: {file: cycles.csv}}`."},
     {NULL},
 };
 
@@ -396,6 +414,18 @@ static const struct kr_deck_key solver_keys[] = {
     {NULL},
 };
 
+#define PROBE_AT(field) offsetof(struct kr_case_probe, field)
+static const struct kr_deck_key probe_keys[] = {
+    {"name", KR_DECK_TEXT, PROBE_AT(name), .text = "Name in the columns."},
+    {"quantity", KR_DECK_CHOICE, PROBE_AT(quantity), .words = KR_QUANTITY_WORDS,
+     .text = "What is told; each of its components is a column."},
+    {"set", KR_DECK_TEXT, PROBE_AT(set), .fallback = "",
+     .text = "Mean over the volume of the nodes of this set; or ..."},
+    {"at", PLACE_OF(PROBE_AT(at)), .fallback = "",
+     .text = "... that of the node nearest to this place."},
+    {NULL},
+};
+
 static const struct kr_deck_key output_keys[] = {
     {"folder", KR_DECK_TEXT, AT(folder), .fallback = "",
      .text = "Folder of all results, made where it is missing; seen from where the program is "
@@ -416,6 +446,9 @@ static const struct kr_deck_key output_keys[] = {
      .text = "Which fields the outputs hold: `displacement`, `velocity`, `damage`, `energy` (strain "
              "energy density), which are the default, and `stress` and `strain`. kirsch-plot draws "
              "what is there."},
+    {"probes", LIST_OF(KR_DECK_LIST, struct kr_case_probe, probe_keys), .offset = AT(probes),
+     .text = "Further columns of history.csv: `[{name: rim, quantity: stress, at: [6 mm, 5 mm]}]`. "
+             "Reactions of loads are there anyway."},
     {"precision", KR_DECK_CHOICE, AT(double_fields), .words = "single double", .fallback = "single",
      .text = "Of the fields in the outputs: float32 or float64."},
     {"compression", KR_DECK_CHOICE, AT(compression), .words = KR_COMPRESSION_WORDS,

@@ -165,6 +165,17 @@ struct kr_case_load {
     struct kr_deck_formula traction[3];     /* Pa, on the boundary that the set belongs to */
     struct kr_deck_formula body_force[3];   /* N/m^3 */
     double ramp; /* s: from 0 to the full value in this time; 0: at once */
+    const char *table_file;   /* CSV of a factor over time; NULL: none */
+    const char *table_column; /* NULL: the second */
+    int table_repeats;
+};
+
+/* A quantity at a place or over a set, in history.csv. */
+struct kr_case_probe {
+    const char *name;
+    int quantity;     /* enum kr_quantity */
+    const char *set;  /* NULL: at a place */
+    double at[3];     /* m */
 };
 
 /* Load steps of equal size. */
@@ -224,6 +235,7 @@ struct kr_case {
     int model; /* enum kr_model */
     int micromodulus; /* enum kr_micromodulus */
     double youngs_modulus;  /* Pa */
+    double poissons_ratio;  /* 0: not given; the model has its own, and others are refused */
     double density;         /* kg/m^3 */
     double fracture_energy; /* J/m^2; 0: does not break */
 
@@ -254,6 +266,7 @@ struct kr_case {
     int first_damage;              /* an output where the first bond breaks */
     int64_t every_bonds;           /* and one for so many broken bonds; 0: none */
     struct kr_deck_list fields;    /* const char *: words of KR_QUANTITY_WORDS; not given: the first four */
+    struct kr_deck_list probes;    /* struct kr_case_probe */
     int double_fields;             /* fields stand in float64 */
     int compression;               /* enum kr_compression */
     double history_every;         /* s */

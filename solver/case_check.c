@@ -176,6 +176,30 @@ int kr_case_outputs_on_events(const struct kr_case *c) {
     return c->first_damage || c->every_bonds > 0;
 }
 
+static void check_probes(struct kr_deck *deck, const struct kr_case *c) {
+    const struct kr_case_probe *probe = c->probes.item;
+    for (size_t k = 0; k < c->probes.count; k++) {
+        int at = kr_deck_given(deck, probe[k].at), set = kr_deck_given(deck, &probe[k].set);
+        if (at == set)
+            kr_deck_fault(deck, &probe[k], "%s; a probe has one of them",
+                          at ? "both 'set' and 'at'" : "neither 'set' nor 'at'");
+        if (at)
+            kr_case_check_count(deck, c, probe[k].at);
+        if (!kr_case_is_name(probe[k].name))
+            kr_deck_fault(deck, &probe[k].name,
+                          "a probe's name may have letters, digits, '_' and '-', no others");
+    }
+}
+
+/* Bonds leave no choice: 1/3 or 1/4, written with as few digits as people do. */
+static void check_poisson(struct kr_deck *deck, const struct kr_case *c) {
+    double own = c->model == KR_PLANE_STRESS ? 1.0 / 3 : 1.0 / 4;
+    if (kr_deck_given(deck, &c->poissons_ratio) && fabs(c->poissons_ratio - own) > 0.005)
+        kr_deck_fault(deck, &c->poissons_ratio,
+                      "found %g, but bonds make it %.4g in this model; leave it out, and compare with "
+                      "others at that value", c->poissons_ratio, own);
+}
+
 static void check_fields(struct kr_deck *deck, const struct kr_case *c) {
     const char *const *word = c->fields.item;
     if (c->fields.given && !c->fields.count)
@@ -204,6 +228,8 @@ void kr_case_check(struct kr_deck *deck, const struct kr_case *c) {
         if (kr_deck_given(deck, boxes[i].lower) && kr_deck_given(deck, boxes[i].upper))
             kr_case_check_box(deck, boxes[i].lower, boxes[i].upper, 2);
     check_fields(deck, c);
+    check_probes(deck, c);
+    check_poisson(deck, c);
     check_deformation(deck, c);
     check_law(deck, c);
 }
@@ -218,10 +244,13 @@ static int loads_use(const struct kr_deck_list *list, const char *set) {
 
 static int is_used(const struct kr_case *c, const char *set) {
     const struct kr_case_stage *stages = c->stages.item;
+    const struct kr_case_probe *probes = c->probes.item;
     const char *const *names = c->no_fail.item;
     int used = loads_use(&c->loads, set);
     for (size_t k = 0; k < c->stages.count && !used; k++)
         used = loads_use(&stages[k].loads, set);
+    for (size_t k = 0; k < c->probes.count && !used; k++)
+        used = probes[k].set && !strcmp(probes[k].set, set);
     if (used)
         return 1;
     for (size_t i = 0; i < c->no_fail.count; i++)
@@ -241,5 +270,5 @@ void kr_case_warn(struct kr_deck *deck, const struct kr_case *c) {
                 kr_deck_where(deck, &c->partial_volume));
     for (size_t i = 0; i < c->sets.count; i++)
         if (!is_used(c, sets[i].name))
-            kr_warn("%s: no load and no no_fail uses this set", kr_deck_where(deck, &sets[i].name));
+            kr_warn("%s: no load, probe or no_fail uses this set", kr_deck_where(deck, &sets[i].name));
 }

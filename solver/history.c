@@ -28,6 +28,7 @@ struct kr_history {
     struct kr_boundary *const *boundary; /* (stages) not owned */
     size_t count, room;
     struct column *column;
+    const struct kr_probes *probes; /* not owned */
 };
 
 static void check_written(struct kr_history *h) {
@@ -80,14 +81,16 @@ static void write_header(struct kr_history *h) {
             fprintf(h->file, ",reaction_%c %s%s [%s]", "xyz"[d], h->column[k].set, again,
                     h->dim == 2 ? "N/m" : "N");
     }
+    kr_probes_header(h->probes, h->file);
     fprintf(h->file, h->stages > 1 ? ",stage,stage_time [s]\n" : "\n");
 }
 
 struct kr_history *kr_history_open(const char *path, struct kr_boundary *const *boundary,
-                                   size_t stages, int dim, long bytes) {
+                                   size_t stages, int dim, const struct kr_probes *probes,
+                                   long bytes) {
     struct kr_history *h = KR_NEW(struct kr_history, 1);
     *h = (struct kr_history){
-        .path = kr_text_copy(path), .dim = dim, .stages = stages, .boundary = boundary};
+        .path = kr_text_copy(path), .dim = dim, .stages = stages, .boundary = boundary, .probes = probes};
     find_columns(h);
     if (bytes > 0 && truncate(path, bytes))
         kr_stop(KR_EXIT_STORAGE, "%s: cannot be cut back to %ld bytes: %s", path, bytes,
@@ -113,12 +116,13 @@ static void write_reaction(struct kr_history *h, const struct kr_boundary *bound
         fprintf(h->file, ",");
 }
 
-void kr_history_write(struct kr_history *h, const struct kr_ledger *ledger,
-                      const struct kr_crack *crack, struct kr_history_time at) {
+void kr_history_write(struct kr_history *h, const struct kr_body *body,
+                      const struct kr_ledger *ledger, const struct kr_crack *crack, struct kr_history_time at) {
     fprintf(h->file, "%ld,%.9g,%.12g,%.12g,%.12g,%.12g,%.6g,%zu", at.step, at.time, ledger->kinetic,
             ledger->strain, ledger->fracture, ledger->external, ledger->balance, crack->count);
     for (size_t k = 0; k < h->count; k++)
         write_reaction(h, h->boundary[at.stage], h->column[k]);
+    kr_probes_write(h->probes, body, ledger->v, h->file);
     if (h->stages > 1)
         fprintf(h->file, ",%zu,%.12g", at.stage + 1, at.stage_time);
     fprintf(h->file, "\n");

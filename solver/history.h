@@ -6,13 +6,16 @@
 #define KR_HISTORY_H
 
 #include "ledger.h"
+#include "probe.h"
 
 struct kr_history; /* Opaque: the open history.csv. */
 
 /** Begin history.csv with its header; or, with bytes > 0, go on behind so many bytes of it and forget
- *  the rest. `boundary`: loads of each stage, not owned. Stops (exit 3) where it cannot be written. */
+ *  the rest. `boundary`: loads of each stage; they and the
+ *  probes are not owned. Stops (exit 3) where it cannot be written. */
 struct kr_history *kr_history_open(const char *path, struct kr_boundary *const *boundary,
-                                   size_t stages, int dim, long bytes);
+                                   size_t stages, int dim, const struct kr_probes *probes,
+                                   long bytes);
 
 /** How long the file is, all written. */
 long kr_history_bytes(const struct kr_history *history);
@@ -24,8 +27,8 @@ struct kr_history_time {
     size_t stage;
     double stage_time;
 };
-void kr_history_write(struct kr_history *history, const struct kr_ledger *ledger,
-                      const struct kr_crack *crack, struct kr_history_time at);
+void kr_history_write(struct kr_history *history, const struct kr_body *body,
+                      const struct kr_ledger *ledger, const struct kr_crack *crack, struct kr_history_time at);
 void kr_history_close(struct kr_history *history);
 
 #endif

@@ -108,6 +108,27 @@ static uint64_t hash_cracks(uint64_t hash, const struct job *job) {
     return hash;
 }
 
+static uint64_t hash_tables(uint64_t hash, const struct job *job, const struct kr_deck_list *list) {
+    const struct kr_case_load *load = list->item;
+    for (size_t k = 0; k < list->count; k++) {
+        if (!load[k].table_file || !*load[k].table_file)
+            continue;
+        char *path = kr_deck_beside(job->deck, load[k].table_file);
+        hash = hash_path(hash, path);
+        kr_free(path);
+    }
+    return hash;
+}
+
+/* Files that the loads of the deck and its stages name. */
+static uint64_t hash_loads(uint64_t hash, const struct job *job) {
+    const struct kr_case_stage *stage = job->c.stages.item;
+    hash = hash_tables(hash, job, &job->c.loads);
+    for (size_t k = 0; k < job->c.stages.count; k++)
+        hash = hash_tables(hash, job, &stage[k].loads);
+    return hash;
+}
+
 /* Files that the deck's geometry names. */
 static uint64_t hash_geometry(uint64_t hash, const struct kr_case *c) {
     const struct kr_case_outline *part = c->outline.parts.item;
@@ -127,7 +148,7 @@ static uint64_t stamp_of(const struct job *job, const struct step *step) {
     if (job->mesh && step == &steps[NODES])
         hash = hash_path(hash, job->mesh);
     if (step == &steps[SOLVE])
-        hash = hash_cracks(hash, job);
+        hash = hash_loads(hash_cracks(hash, job), job);
     for (int k = 0; k < 4 && step->inputs[k]; k++)
         hash = hash_file(hash, &job->c, step->inputs[k]);
     if (step == &steps[PORES] || step == &steps[MESH])

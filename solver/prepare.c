@@ -187,6 +187,7 @@ struct kr_run *kr_run_create(struct kr_deck *deck, const struct kr_case *c) {
     int partial_volume = kr_weights_choose(deck, c, run->nodes);
     check_made_for(deck, c, partial_volume, run->nodes);
     kr_boundary_check(deck, c, run->nodes);
+    run->probes = kr_probes_create(deck, c, run->nodes);
     kr_deck_finish(deck);
 
     double begun = kr_progress_clock();
@@ -218,6 +219,7 @@ void kr_run_free(struct kr_run *run) {
     for (size_t k = 0; k < run->n_stages; k++)
         kr_boundary_free(run->boundary[k]);
     kr_free(run->boundary);
+    kr_probes_free(run->probes);
     kr_free(run->stage);
     kr_body_free(run->body);
     kr_bonds_free(run->bonds);

@@ -39,7 +39,8 @@ void kr_records_open(struct kr_records *r, struct kr_run *run, const char *deck_
                                   .done = r->at.before + r->at.step + written};
     r->output = kr_output_create(c, run->nodes, run->bonds, plan, deck_text);
     r->history =
-        kr_history_open(path, run->boundary, run->n_stages, run->body->dim, r->at.history);
+        kr_history_open(path, run->boundary, run->n_stages, run->body->dim, run->probes,
+                        r->at.history);
     if (run->staged)
         r->sites = kr_sites_create(c, run->bonds, r->crack, r->at.sites);
     kr_free(path);
@@ -71,7 +72,7 @@ void kr_records_crack(struct kr_records *r, long step, double t) {
 
 void kr_records_write(struct kr_records *r, int output, int last, long step, double t) {
     struct kr_history_time at = {r->at.before + step, r->at.began + t, r->at.stage, t};
-    kr_history_write(r->history, r->ledger, r->crack, at);
+    kr_history_write(r->history, r->run->body, r->ledger, r->crack, at);
     if (output)
         kr_output_write(r->output, r->run->body, r->ledger, r->crack, at.step, at.time, last);
     if (output)

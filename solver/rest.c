@@ -56,7 +56,7 @@ static double pull_of_node(const void *context, size_t i) {
 double kr_rest_measure(struct kr_rest *rest) {
     double left = kr_body_sum(rest->body->n, left_of_node, rest);
     rest->pull = kr_body_sum(rest->body->n, pull_of_node, rest);
-    return rest->residual = left == 0 ? 0 : left / rest->pull;
+    return rest->residual = left == 0 ? 0 : left / fmax(rest->pull, rest->least_pull);
 }
 
 /* Whether prescribed components and loads are where they will be at `end`. */

@@ -17,7 +17,8 @@ struct kr_rest {
     struct kr_body *body; /* not owned */
     unsigned char *fixed; /* (n) bit d set: component d of the node is prescribed */
     double *load[3];      /* N/m^3: body forces */
-    double residual;      /* sum of |V f| over free components, over `pull` */
+    double residual;      /* sum of |V f| over free components, over `pull` or `least_pull` */
+    double least_pull;    /* N/m, in 3D N: so that a body without load is at rest, too; 0: none */
     double pull; /* N/m, in 3D N: what holds the body: half of the sums of |V f| over prescribed
                     components and of |V b| over all, together */
 };

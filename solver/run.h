@@ -9,6 +9,7 @@
 #include "boundary.h"
 #include "case.h"
 #include "nodes.h"
+#include "probe.h"
 
 /** A part of the run, ready. */
 struct kr_stage {
@@ -33,6 +34,7 @@ struct kr_run {
     size_t n_stages;
     struct kr_stage *stage;        /* (n_stages) */
     struct kr_boundary **boundary; /* (n_stages): the loads of each */
+    struct kr_probes *probes;
     double safe_step;              /* s: longest step in time that is safe */
     double dt;                     /* s, of the last stage that has steps in time */
     long steps;                    /* of all stages together */

@@ -24,6 +24,10 @@
 
 enum { MOST_RELAXING = 20000, MOST_ROUNDS = 1000000 };
 
+/* Of the greatest pull so far: forces are measured by no less, or a body that is unloaded again would
+ * never come to rest for rounding. */
+static const double SLACK = 1e-3;
+
 struct statics {
     struct kr_run *run;
     struct kr_records *r;
@@ -107,6 +111,7 @@ static _Noreturn void give_up(const struct statics *s, double t) {
  * checkpoint and ends the run. */
 static void find(struct statics *s, long step, double from, double t) {
     struct kr_equilibrium *q = s->q;
+    q->rest->least_pull = SLACK * s->r->at.most_pull;
     remember(s);
     kr_rest_loads(q->rest, s->boundary, t);
     for (int d = 0; d < q->body->dim; d++)

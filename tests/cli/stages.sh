@@ -200,11 +200,59 @@ print(f"# figure {len(got)} outputs on events")
 END
 }
 
+write_table() {
+    printf 'time [ms],other,factor\n0,9,0\n1000,9,1\n\n2000, 9 , 0\r\n' >"$work/cycle.csv"
+}
+
+# A table that goes up, down and again, read in two units: the reaction follows it, and probes tell what the
+# outputs hold: a place, and the mean over a set.
+tables() {
+    whole || return
+    write_table
+    mkdir -p "$work/tabled" && cp "$work/whole/plate.nodes.h5" "$work/tabled/"
+    sed '/^stages:/,$d; /^output:/d' "$work/case.yaml" >"$work/cyclic.yaml"
+    cat >>"$work/cyclic.yaml" <<'END'
+output: {fields: [displacement, stress], precision: double, probes: [{name: spot, quantity: stress, at: [9 mm, 12 mm]}, {name: above, quantity: displacement, set: up}]}
+loads:
+  - {set: up, displacement: [0 mm, 1e-3 mm], table: {file: cycle.csv, column: factor, repeat: true}}
+  - {set: down, displacement: [0 mm, 0 mm]}
+stages: [{kind: static, steps: [{count: 7, size: 0.5 s}]}]
+END
+    "$build/kirsch-solve" --output "$work/tabled" "$work/cyclic.yaml" || return
+    /usr/bin/python3 - "$work/tabled" <<'END'
+import sys, csv, h5py, numpy as np
+folder = sys.argv[1]
+rows = list(csv.DictReader(open(folder + "/history.csv")))
+file, nodes = h5py.File(folder + "/run.h5"), h5py.File(folder + "/plate.nodes.h5")
+x, up, volume = file["nodes/position"][:], nodes["sets/up"][:], file["nodes/volume"][:]
+spot = np.argmin(np.hypot(*(x - [9e-3, 12e-3]).T))
+wanted, pull = [0, .5, 1, .5, 0, .5, 1, .5], [float(r["reaction_y up [N/m]"]) for r in rows]
+assert np.allclose(np.array(pull) / pull[2], wanted, atol=2e-4), pull
+for row, k in zip(rows, sorted(file["step"])):
+    u, s = file["step"][k]["Displacement"][:], file["step"][k]["Stress"][:]
+    for axis in (0, 1):
+        mean = np.average(u[up, axis], weights=volume[up])
+        assert np.isclose(float(row[f"displacement_{'xy'[axis]} above [m]"]), mean, rtol=1e-8, atol=1e-20)
+    for name, m in (("xx", 0), ("xy", 1), ("yy", 3)):
+        assert np.isclose(float(row[f"stress_{name} spot [Pa]"]), s[spot, m], rtol=1e-8, atol=1e-20)
+assert abs(s[spot, 3]) > 1e4 and len(rows) == 8 and "stress_zz spot [Pa]" not in rows[0]
+END
+}
+
 # The pictures of the deck's faults.
 refused() { # words, sed command
     sed "$2" "$work/case.yaml" >"$work/wrong.yaml"
+    write_table
     mkdir -p "$work/wrong" && whole && cp "$work/whole/plate.nodes.h5" "$work/wrong/"
     stops 2 "$1" "$build/kirsch-solve" --output "$work/wrong" "$work/wrong.yaml"
+}
+
+stops_at_nan() {
+    sed 's/0.01\*t mm/0.01*sqrt(t-1.5) mm/' "$work/case.yaml" >"$work/nan.yaml"
+    write_table
+    mkdir -p "$work/wrong" && whole && cp "$work/whole/plate.nodes.h5" "$work/wrong/"
+    stops 4 "the load on set 'up' is .*nan at .*root of a negative number" \
+        "$build/kirsch-solve" --output "$work/wrong" "$work/nan.yaml"
 }
 
 check one_and_two_threads_are_equal two_threads
@@ -213,7 +261,16 @@ check after_an_interrupt_is_equal interrupted
 check split_dynamics_is_whole_dynamics split
 check outputs_are_chosen outputs
 check outputs_on_events on_events
+check tables_and_probes tables
+check wrong_tables_are_named refused "there is no column 'force'" 's/set: up, displacement: \[0 mm, 0.01\*t mm\]/&, table: {file: cycle.csv, column: force}/'
+check missing_table refused 'cannot be read; expected a CSV file' 's/set: up, displacement: \[0 mm, 0.01\*t mm\]/&, table: {file: none.csv}/'
+check probe_outside refused 'expected a place in the body' 's/^output: {/&probes: [{name: p, quantity: damage, at: [9 mm, 7 mm]}], /'
+check probe_of_no_set refused "no set is called 'nowhere'" 's/^output: {/&probes: [{name: p, quantity: damage, set: nowhere}], /'
+check other_poissons_ratio refused 'but bonds make it 0.3333 in this model' 's/density:/poissons_ratio: 0.35, &/'
+check constraints_that_contradict refused 'such as the one at (.*) mm, and both prescribe' 's/set: down/set: up/'
+check negative_fracture_energy refused 'fracture_energy' 's/fracture_energy: 50/fracture_energy: -50/'
 check unknown_field refused "unknown field 'tension'" 's/^output: {/output: {fields: [damage, tension], /'
+check load_that_is_no_number stops_at_nan
 check names_a_free_slide refused 'moving along x' 's/\[0 mm, 0.01\*t mm\]/[free, 0.01*t mm]/; s/displacement: \[0 mm, 0 mm\]/displacement: [free, 0 mm]/'
 check static_has_no_end_time refused 'ends with its load steps' 's/end_below: 0/end_time: 1 s/'
 check nothing_holds refused 'nothing holds the body' '/stages:/,/steps/ { s/set: up, displacement: \[0 mm, 0.01\*t mm\]/set: top, traction: [free, 1 MPa]/; /set: down/d }'
