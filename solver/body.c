@@ -10,6 +10,21 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* As kr_bonds_padded. */
+static float *padded_floats(size_t n) {
+    return KR_NEW(float, n + 3 * KR_LANES) + KR_LANES;
+}
+
+static void free_rounded(struct kr_body *body) {
+    for (int d = 0; d < body->dim && body->rounded; d++) {
+        kr_free(body->rounded->high[d] - KR_LANES);
+        kr_free(body->rounded->low[d] - KR_LANES);
+    }
+    if (body->rounded)
+        kr_free(body->rounded->factor - KR_LANES);
+    kr_free(body->rounded);
+}
+
 struct kr_body *kr_body_create(struct kr_bonds *bonds) {
     struct kr_body *body = KR_NEW(struct kr_body, 1);
     *body = (struct kr_body){
@@ -32,6 +47,7 @@ void kr_body_free(struct kr_body *body) {
         kr_bonds_padded_free(body->force[d]);
     }
     kr_bonds_padded_free(body->energy);
+    free_rounded(body);
     kr_free(body->flag);
     for (int k = 0; k < body->bonds->n_blocks; k++)
         kr_free(body->by_block[k].item);
@@ -42,11 +58,35 @@ void kr_body_free(struct kr_body *body) {
 
 void kr_body_mix(struct kr_body *body) {
     body->kernel = kr_kernel_mixed();
+    struct kr_rounded *rounded = body->rounded = KR_NEW(struct kr_rounded, 1);
+    for (int d = 0; d < body->dim; d++) {
+        rounded->high[d] = padded_floats(body->n);
+        rounded->low[d] = padded_floats(body->n);
+    }
+    rounded->factor = padded_floats(body->n);
+    for (size_t i = 0; i < body->n; i++)
+        rounded->factor[i] = (float)body->bonds->factor[i];
 }
 
-static struct kr_kernel_work work_of(const struct kr_body *body) {
-    struct kr_kernel_work work = {
-        .bonds = body->bonds, .energy = body->energy, .flag = body->flag};
+/* Bring `rounded` up to date. u may have been changed by anyone since the last time. */
+static void round_displacements(struct kr_body *body) {
+    for (int d = 0; d < body->dim && body->rounded; d++) {
+        const double *restrict u = body->u[d];
+        float *restrict high = body->rounded->high[d], *restrict low = body->rounded->low[d];
+#pragma omp parallel for simd schedule(static)
+        for (size_t i = 0; i < body->n; i++) {
+            high[i] = (float)u[i];
+            low[i] = (float)(u[i] - (double)high[i]);
+        }
+    }
+}
+
+static struct kr_kernel_work work_of(struct kr_body *body) {
+    struct kr_kernel_work work = {.bonds = body->bonds,
+                                  .rounded = body->rounded,
+                                  .energy = body->energy,
+                                  .flag = body->flag};
+    round_displacements(body);
     for (int d = 0; d < body->dim; d++) {
         work.u[d] = body->u[d];
         work.force[d] = body->force[d];

@@ -17,6 +17,7 @@ struct kr_body {
     double *force[3];  /* N/m^3, internal and body forces together */
     double *energy;    /* J/m^3, strain energy density as of the last kr_body_energy */
     unsigned char *flag;
+    struct kr_rounded *rounded;      /* of u; NULL unless the precision is mixed */
     struct kr_broken_list broken;    /* of the last kr_body_force, each pair once, i < j, sorted */
     struct kr_broken_list *by_block; /* room of the threads */
 };

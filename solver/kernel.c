@@ -19,8 +19,10 @@
  * Damage costs nothing here: the loop only notes that some bond of a slice left the range, and
  * exact.c does that slice again, bond by bond. The readable form of this loop is there, too.
  *
- * Mixed precision (KR_FLOAT): positions, displacements and their differences are double, what is made
- * of the differences is float, and so are the sums over a family.
+ * Mixed precision (KR_FLOAT): what is made of the differences is float, and so are the sums over a
+ * family. A displacement is the sum of two floats there (kr_rounded), so that its differences are as
+ * good as those of doubles rounded to float, without the cost of conversions: the difference of the
+ * high parts is exact where they are close, and else not small.
  * How fast: docs/performance.md.
  */
 #include "kernel.h"
@@ -87,8 +89,44 @@ INLINE vector narrow(doubles value) {
     return __builtin_convertvector(value, vector);
 }
 
+/* Displacements of WIDTH nodes. */
+#ifdef KR_FLOAT
+struct displacements {
+    vector high, low;
+};
+#else
+struct displacements {
+    vector all;
+};
+#endif
+
 INLINE vector load_floats(const float *from) {
     return __builtin_convertvector(*(const floats_anywhere *)from, vector);
+}
+
+INLINE struct displacements load_u(const struct kr_kernel_work *work, int d, size_t node) {
+#ifdef KR_FLOAT
+    return (struct displacements){load_floats(work->rounded->high[d] + node),
+                                  load_floats(work->rounded->low[d] + node)};
+#else
+    return (struct displacements){load(work->u[d] + node)};
+#endif
+}
+
+INLINE vector minus(struct displacements to, struct displacements from) {
+#ifdef KR_FLOAT
+    return (to.high - from.high) + (to.low - from.low);
+#else
+    return to.all - from.all;
+#endif
+}
+
+INLINE vector load_factor(const struct kr_kernel_work *work, size_t node) {
+#ifdef KR_FLOAT
+    return load_floats(work->rounded->factor + node);
+#else
+    return load(work->bonds->factor + node);
+#endif
 }
 
 INLINE vector same(double value) {
@@ -139,7 +177,8 @@ INLINE void polynomial(int terms, const double *coefficient, const vector *e, ve
 /* The WIDTH nodes from `node` on, and what is summed for them. */
 struct lanes {
     size_t node;
-    doubles u[3], v[3], x[3];
+    struct displacements u[3];
+    doubles v[3], x[3];
     vector factor;
     vector sum[3]; /* force or product; sum[0] is the energy. All still without c/2 */
     mask left;     /* sign bits of lanes in which e left the range */
@@ -178,7 +217,7 @@ INLINE void add_rows(struct lanes l[COUNT], const struct kr_kernel_work *work, s
     for (int p = 0; p < COUNT; p++) {
         vector q = {0};
         for (int d = 0; d < shape.dim; d++) {
-            vector eta = narrow(load(work->u[d] + row[p].j) - l[p].u[d]);
+            vector eta = minus(load_u(work, d, row[p].j), l[p].u[d]);
             stretched[p][d] = row[p].xi[d] + eta;
             q += eta * (row[p].xi[d] + stretched[p][d]);
         }
@@ -186,7 +225,7 @@ INLINE void add_rows(struct lanes l[COUNT], const struct kr_kernel_work *work, s
         if (!shape.whole)
             e[p] = only(e[p], row[p].keep);
         l[p].left |= (mask)(EARLY * (number)b->flag_above - e[p]) | (mask)(e[p] - (number)b->flag_below);
-        both[p] = row[p].scale * (l[p].factor + narrow(load(b->factor + row[p].j)));
+        both[p] = row[p].scale * (l[p].factor + load_factor(work, row[p].j));
     }
     polynomial(shape.terms, fit->coefficient, e, pull);
     for (int p = 0; p < COUNT; p++) {
@@ -240,9 +279,9 @@ INLINE void general_row(const struct kr_bonds *b, struct shape shape, const stru
 /* ---- slices ---- */
 
 INLINE struct lanes begin_lanes(const struct kr_kernel_work *work, struct shape shape, size_t node) {
-    struct lanes l = {.node = node, .factor = narrow(load(work->bonds->factor + node))};
+    struct lanes l = {.node = node, .factor = load_factor(work, node)};
     for (int d = 0; d < shape.dim; d++) {
-        l.u[d] = load(work->u[d] + node);
+        l.u[d] = load_u(work, d, node);
         l.x[d] = load(work->bonds->x[d] + node);
         if (shape.what == PRODUCT)
             l.v[d] = load(work->v[d] + node);

@@ -7,10 +7,18 @@
 
 #include "bonds.h"
 
+/** Node values as mixed precision reads them: u is high + low to 48 bits. Arrays with room for a
+ *  whole slice before and behind, as those of kr_bonds_padded. */
+struct kr_rounded {
+    float *high[3], *low[3]; /* m */
+    float *factor;           /* lambda */
+};
+
 /** What a kernel reads and writes, all arrays from kr_bonds_padded. */
 struct kr_kernel_work {
     const struct kr_bonds *bonds;
     const double *u[3];     /* m */
+    const struct kr_rounded *rounded; /* of u, for mixed precision */
     double *force[3];       /* N/m^3, written by `force` */
     double *energy;         /* J/m^3, written by `energy` */
     const double *v[3];     /* m, the direction of `product` */
@@ -32,8 +40,8 @@ struct kr_kernel {
  *  another one that it can run. Stops (exit 2) if it cannot. */
 const struct kr_kernel *kr_kernel_best(void);
 
-/** The same loop in mixed precision: differences of displacements in double, what is made of them in
- *  float32; docs/performance.md. */
+/** The same loop in mixed precision: differences of displacements as good as in double, what is made
+ *  of them in float32; docs/performance.md. */
 const struct kr_kernel *kr_kernel_mixed(void);
 
 #endif
