@@ -8,6 +8,7 @@
 #   make deps       list what the system lacks and install it (Debian; sudo where not root)
 #   make corrections  write docs/corrections.md anew: all partial volumes with all surface corrections
 #   make pores-500  mesh 500 random fields of 30 pores (GRID=, SEEDS=, PORES=, SPACING= in mm)
+#   make equilibrium  measure the static solver at three sizes, up to 780 000 nodes
 #   make free-grid  measure the free grid at three sizes (the table in docs/grids.md)
 #   make docs       write docs/deck.md anew from the table that reads the deck
 #   make format     clang-format the sources
@@ -61,7 +62,7 @@ KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 $(foreach k,$(kernels),$(eval KERNEL_$(k)_mixed := $(KERNEL_$(k)) -DKR_FLOAT))
 
-.PHONY: FORCE all help demo study test bench deps corrections pores-500 free-grid docs format install clean check-deps
+.PHONY: FORCE all help demo study test bench deps corrections pores-500 equilibrium free-grid docs format install clean check-deps
 all: check-deps $(programs) $(scripts)
 
 help:
@@ -152,6 +153,9 @@ corrections: all $(BUILD)/corrections
 
 pores-500: all $(BUILD)/fields
 	@$(BUILD)/fields $(or $(GRID),near-boundary) 1 $(or $(SEEDS),500) $(or $(PORES),30) $(or $(SPACING),0.25)
+
+equilibrium: all
+	@BUILD=$(BUILD) cases/equilibrium/table
 
 free-grid: all
 	@BUILD=$(BUILD) cases/free-grid/table
