@@ -8,8 +8,10 @@
 #   make deps       list what the system lacks and install it (Debian; sudo where not root)
 #   make corrections  write docs/corrections.md anew: all partial volumes with all surface corrections
 #   make pores-500  mesh 500 random fields of 30 pores (GRID=, SEEDS=, PORES=, SPACING= in mm)
+#   make bar        a bar of cubes, pulled, with each surface correction
 #   make cases/NAME run a case that is compared with something known (FULL=1: the published size)
 #   make validate   run all of them, small; writes build/validation.csv
+#   make equilibrium  measure the static solver at three sizes, up to 780 000 nodes
 #   make free-grid  measure the free grid at three sizes (the table in docs/grids.md)
 #   make docs       write docs/deck.md anew from the table that reads the deck
 #   make format     clang-format the sources
@@ -67,7 +69,7 @@ KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 $(foreach k,$(kernels),$(eval KERNEL_$(k)_mixed := $(KERNEL_$(k)) -DKR_FLOAT))
 
-.PHONY: FORCE all help demo study test bench deps corrections pores-500 free-grid bar validate $(cases) \
+.PHONY: FORCE all help demo study test bench deps corrections pores-500 equilibrium free-grid bar validate $(cases) \
         docs format install clean check-deps
 all: check-deps $(programs) $(scripts)
 
@@ -166,6 +168,9 @@ pores-500: all $(BUILD)/fields
 
 bar: all $(BUILD)/bar
 	@BUILD=$(BUILD) cases/bar/table
+
+equilibrium: all
+	@BUILD=$(BUILD) cases/equilibrium/table
 
 free-grid: all
 	@BUILD=$(BUILD) cases/free-grid/table

@@ -55,8 +55,10 @@ void kr_grid_row_free(struct kr_grid_row *row);
 /** Add the block (dim x dim) that point j has in it. */
 void kr_grid_row_add(struct kr_grid_row *row, const struct kr_grid_level *grid, size_t j,
                      const double *block);
-/** It was the row of point i: P^T A P of it goes into grid->block; the row is empty again. */
-void kr_grid_row_end(struct kr_grid_row *row, struct kr_grid_level *grid, size_t i);
+/** It was the row of point i: P^T A P of it is added to `into`, which stands for grid->block from its block
+ *  number `from` on; the row is empty again. */
+void kr_grid_row_end(struct kr_grid_row *row, const struct kr_grid_level *grid, size_t i, double *into,
+                     size_t from);
 
 /** Invert a symmetric block; directions without stiffness get 0. */
 void kr_grid_invert(int dim, const double *block, double *inverse);

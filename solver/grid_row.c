@@ -66,18 +66,19 @@ static size_t place_of(const struct kr_grid_level *grid, size_t v, int32_t w) {
     return low;
 }
 
-void kr_grid_row_end(struct kr_grid_row *row, struct kr_grid_level *grid, size_t i) {
+void kr_grid_row_end(struct kr_grid_row *row, const struct kr_grid_level *grid, size_t i, double *into,
+                     size_t from) {
     size_t square = (size_t)(grid->dim * grid->dim), corners = (size_t)grid->corners;
     const int32_t *mine = grid->vertex + (size_t)grid->element[i] * corners;
     for (size_t k = 0; k < row->count; k++)
         for (size_t b = 0; b < corners; b++) {
-            const double *from = row->block + (k * corners + b) * square;
+            const double *reached = row->block + (k * corners + b) * square;
             int32_t w = grid->vertex[(size_t)row->element[k] * corners + b];
             for (size_t a = 0; a < corners; a++) {
                 double share = grid->share[i * corners + a];
-                double *into = grid->block + place_of(grid, (size_t)mine[a], w) * square;
+                double *block = into + (place_of(grid, (size_t)mine[a], w) - from) * square;
                 for (size_t m = 0; m < square; m++)
-                    into[m] += share * from[m];
+                    block[m] += share * reached[m];
             }
         }
     row->count = 0;

@@ -92,8 +92,35 @@ static void join_bonds(struct kr_grid_maker *maker, const struct kr_bonds *b,
     }
 }
 
+/* The stiffness on the first grid is summed in as many parts as this, which are then joined in turn: the
+ * same bits for any number of threads. Nodes stand in rows, so parts hardly overlap. */
+enum { PARTS = 16 };
+struct part {
+    size_t slice[2];    /* first and one past the last */
+    size_t from, count; /* blocks of the grid that it reaches */
+    double *block;
+};
+
+static void find_part(const struct kr_multigrid *c, int k, struct part *part) {
+    const struct kr_grid_level *g = c->grid[0];
+    const size_t slices = c->body->bonds->n_slices, corners = (size_t)g->corners;
+    size_t low = g->n_vertices, high = 0;
+    part->slice[0] = slices * (size_t)k / PARTS;
+    part->slice[1] = slices * ((size_t)k + 1) / PARTS;
+    for (size_t i = part->slice[0] * KR_LANES; i < part->slice[1] * KR_LANES && i < g->n; i++)
+        for (size_t a = 0; a < corners; a++) {
+            size_t v = (size_t)g->vertex[(size_t)g->element[i] * corners + a];
+            low = v < low ? v : low;
+            high = v > high ? v : high;
+        }
+    part->from = low <= high ? g->first[low] : 0;
+    part->count = low <= high ? g->first[high + 1] - part->from : 0;
+    part->block = KR_NEW(double, part->count * (size_t)(g->dim * g->dim));
+}
+
 /* Rows of the eight nodes of a slice onto the first grid, and their diagonal blocks. */
-static void slice_rows(struct kr_multigrid *c, size_t slice, struct kr_grid_row *row[KR_LANES]) {
+static void slice_rows(struct kr_multigrid *c, size_t slice, struct kr_grid_row *row[KR_LANES],
+                       const struct part *part) {
     const struct kr_body *body = c->body;
     const size_t square = (size_t)(body->dim * body->dim);
     struct kr_bond_walk walk = kr_bonds_walk(body->bonds, slice);
@@ -114,26 +141,42 @@ static void slice_rows(struct kr_multigrid *c, size_t slice, struct kr_grid_row 
         memcpy(block, own, sizeof *own * square);
         mask(body->dim, c->fixed[i], c->fixed[i], block, 1, own);
         kr_grid_row_add(row[lane], c->grid[0], i, own);
-        kr_grid_row_end(row[lane], c->grid[0], i);
+        kr_grid_row_end(row[lane], c->grid[0], i, part->block, part->from);
         kr_grid_invert(body->dim, own, c->inverse + i * square);
     }
+}
+
+static void part_rows(struct kr_multigrid *c, const struct part *part) {
+    struct kr_grid_row *row[KR_LANES];
+    for (int lane = 0; lane < KR_LANES; lane++)
+        row[lane] = kr_grid_row_create(c->grid[0]);
+    for (size_t slice = part->slice[0]; slice < part->slice[1]; slice++)
+        slice_rows(c, slice, row, part);
+    for (int lane = 0; lane < KR_LANES; lane++)
+        kr_grid_row_free(row[lane]);
 }
 
 static void make_first(struct kr_multigrid *c) {
     const struct kr_bonds *b = c->body->bonds;
     double width = reach_of(b) * (1 + 1e-9);
-    struct kr_grid_row *row[KR_LANES];
+    const size_t square = (size_t)(b->dim * b->dim);
     struct kr_grid_maker *maker = kr_grid_begin(b->dim, b->n, b->x, width);
     join_bonds(maker, b, kr_grid_join);
     kr_grid_elements(maker);
     join_bonds(maker, b, kr_grid_tie);
     c->grid[c->levels++] = kr_grid_finish(maker, b->x);
-    for (int lane = 0; lane < KR_LANES; lane++)
-        row[lane] = kr_grid_row_create(c->grid[0]);
-    for (size_t slice = 0; slice < b->n_slices; slice++)
-        slice_rows(c, slice, row);
-    for (int lane = 0; lane < KR_LANES; lane++)
-        kr_grid_row_free(row[lane]);
+    struct part part[PARTS];
+#pragma omp parallel for schedule(dynamic, 1)
+    for (int k = 0; k < PARTS; k++) {
+        find_part(c, k, &part[k]);
+        part_rows(c, &part[k]);
+    }
+    for (int k = 0; k < PARTS; k++) {
+        double *to = c->grid[0]->block + part[k].from * square;
+        for (size_t m = 0; m < part[k].count * square; m++)
+            to[m] += part[k].block[m];
+        kr_free(part[k].block);
+    }
 }
 
 static int is_zero(const double *block, size_t square) {
@@ -166,7 +209,7 @@ static void make_next(struct kr_multigrid *c) {
         for (size_t k = fine->first[v]; k < fine->first[v + 1]; k++)
             if (!is_zero(fine->block + k * square, square))
                 kr_grid_row_add(row, grid, (size_t)fine->column[k], fine->block + k * square);
-        kr_grid_row_end(row, grid, v);
+        kr_grid_row_end(row, grid, v, grid->block, 0);
     }
     kr_grid_row_free(row);
 }

@@ -253,6 +253,7 @@ static void load_step(struct statics *s, long step) {
     struct kr_checkpoint *at = &s->r->at;
     const size_t broken = s->r->crack->count;
     int products = 0;
+    double begun = kr_progress_clock();
     if (at->round == 0) {
         at->clock = first_round(s, step);
         products = s->q->products;
@@ -263,8 +264,9 @@ static void load_step(struct statics *s, long step) {
     break_bonds(s, step);
     if (s->r->crack->count && s->q->rest->pull < s->stage->end_below * at->most_pull)
         s->apart = 1;
-    kr_say("  load step %ld, t %.6g s: residual %.1e after %d products, pull %.6g %s, %zu bonds broken in "
-           "%ld rounds", step, at->clock, s->q->rest->residual, products, s->q->rest->pull,
+    kr_say("  load step %ld, t %.6g s: residual %.1e after %d products in %.1f s, pull %.6g %s, %zu bonds broken in "
+           "%ld rounds", step, at->clock, s->q->rest->residual, products,
+           kr_progress_clock() - begun, s->q->rest->pull,
            s->run->body->dim == 2 ? "N/m" : "N", s->r->crack->count - broken, at->round - 1);
 }
 
