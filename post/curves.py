@@ -6,6 +6,7 @@ from maps import outline_holes, paint, panels, save, show
 from results import Nothing, read_csv
 from style import COLOURS, DAMAGE, box_label, open_axes, plt
 
+STYLES = "-", "--", "-.", ":"  # of the first, second ... seven branches
 SMOOTH = 15  # moves of the tip
 
 
@@ -60,16 +61,20 @@ def speed(case):
         axes.axvline(x, linestyle=(0, (4, 3)), linewidth=0.7, color="0.45")
     over = axes.twinx()
     jump = 1e3 * case.run().attrs["horizon"]
+    highest = 0
     for box, t in tips:
         colour = COLOURS[(box - 1) % len(COLOURS)]
+        style = STYLES[(box - 1) // len(COLOURS) % len(STYLES)]
         label = box_label(box, tips)
         for some in pieces(t, jump):
-            x, values = t["x"][some], t["speed"][some]
+            x, values, bold = t["x"][some], t["speed"][some], smooth(t["speed"][some])
             over.plot(x, values, color=colour, linewidth=0.4, alpha=0.45)
-            over.plot(x, smooth(values), color=colour, linewidth=1.4, label=label)
+            over.plot(x, bold, style, color=colour, linewidth=1.4, label=label)
+            highest = max(highest, np.nanmax(np.append(bold, 0)))
             label = None
-    highest = max(np.nanmax(np.append(t["speed"], 0)) for _, t in tips)
     over.set_ylim(0, max(1, 1.08 * highest))
+    lower, upper = case.box()
+    axes.set_xlim(lower[0], upper[0])
     over.set_ylabel("crack speed / Rayleigh speed")
     over.set_title("bold: mean over %d moves of the tip" % SMOOTH, loc="right", pad=3)
     if len(tips) > 1:

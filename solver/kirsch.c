@@ -344,7 +344,7 @@ static void print_summary(const struct job *job) {
 static void print_paths(const struct job *job) {
     static const char *const made[] = {
         "pictures/grid.png", "pictures/damage.png",  "pictures/energy.png",
-        "pictures/speed.png", "pictures/tip.png", "pictures/history.png", "pictures/crack.mp4",
+        "pictures/tree.png", "pictures/speed.png", "pictures/tip.png", "pictures/history.png", "pictures/crack.mp4",
         "tips.csv",          "branches.csv",         "events.csv",
         "fragments.csv",     "history.csv",          "summary.csv",
         "run.xdmf"};
