@@ -7,6 +7,9 @@
 #   make bench      measure the speed; writes build/bench.csv
 #   make deps       list what the system lacks and install it (Debian; sudo where not root)
 #   make corrections  write docs/corrections.md anew: all partial volumes with all surface corrections
+#   make fuzz       feed the readers damaged files under sanitizers (TIME=20: seconds a reader; clang)
+#   make soak       repeat a small run for HOURS=2 and watch memory and files (docs/reliability.md)
+#   make sbom       list what is linked, as SPDX (build/kirsch.spdx)
 #   make pores-500  mesh 500 random fields of 30 pores (GRID=, SEEDS=, PORES=, SPACING= in mm)
 #   make free-grid  measure the free grid at three sizes (the table in docs/grids.md)
 #   make docs       write docs/deck.md anew from the table that reads the deck
@@ -61,7 +64,8 @@ KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 $(foreach k,$(kernels),$(eval KERNEL_$(k)_mixed := $(KERNEL_$(k)) -DKR_FLOAT))
 
-.PHONY: FORCE all help demo study test bench deps corrections pores-500 free-grid docs format install clean check-deps
+.PHONY: FORCE all help demo study test bench deps corrections pores-500 free-grid docs format install clean check-deps \
+        fuzz soak sbom
 all: check-deps $(programs) $(scripts)
 
 help:
@@ -158,6 +162,26 @@ free-grid: all
 
 docs: all
 	@$(BUILD)/kirsch --deck-reference > docs/deck.md
+
+# The whole library once more, with clang, into build-fuzz/; the programs of build/ make the first files.
+FUZZ_FLAGS := -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined
+build-fuzz/fuzz: tests/fuzz/fuzz.c FORCE
+	@$(MAKE) --no-print-directory BUILD=build-fuzz CC=clang CXX=clang++ \
+	  CFLAGS='$(FUZZ_FLAGS) -fsanitize=fuzzer-no-link' build-fuzz/libkirsch.a
+	@echo "  link  fuzz"
+	$(Q)clang -std=c11 -D_GNU_SOURCE -fopenmp $(FUZZ_FLAGS) -fsanitize=fuzzer -Wl,--wrap=exit -Isolver -Ipre -Ipost \
+	  $(shell pkg-config --cflags hdf5 libfyaml udunits 2>/dev/null) $< build-fuzz/libkirsch.a $(LIBS) -lmetis \
+	  $(CGAL_LIBS) -o $@
+
+fuzz: all build-fuzz/fuzz
+	@PROGRAMS=$(BUILD) TIME='$(TIME)' ONLY='$(ONLY)' nice -n 15 tests/fuzz/run
+
+soak: all
+	@BUILD=$(BUILD) HOURS='$(or $(HOURS),2)' tests/soak
+
+sbom: all
+	@BUILD=$(BUILD) VERSION='$(VERSION)' tests/sbom > $(BUILD)/kirsch.spdx
+	@echo "$(BUILD)/kirsch.spdx: $$(grep -c ^PackageName: $(BUILD)/kirsch.spdx) packages"
 
 format:
 	@clang-format -i $$(git ls-files '*.c' '*.h')
