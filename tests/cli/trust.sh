@@ -5,11 +5,17 @@
 prefix=trust
 . tests/cli/steps
 write_case
-often='solver.checkpoint_every=5 ms'
-slow='solver.time_step=4 ns'
+often='solver.checkpoint_every=50 ms'
+slow='solver.time_step=20 ns'
 
 solve() { # option...
     "$build/kirsch-solve" --output "$work/now" --set "$often" --set "$slow" "$@" "$work/case.yaml"
+}
+
+# The same in the background; child is the program itself, so that a kill meets it and no shell before it.
+start() {
+    "$build/kirsch-solve" --output "$work/now" --set "$often" --set "$slow" "$work/case.yaml" >"$work/log" 2>&1 &
+    child=$!
 }
 
 nodes() {
@@ -27,8 +33,7 @@ begin() {
 # Two checkpoints: run until both are there, then kill.
 two_checkpoints() {
     begin || return
-    solve >"$work/log" 2>&1 &
-    child=$!
+    start
     until [ -e "$work/now/checkpoint-before.h5" ] && [ -e "$work/now/checkpoint.h5" ]; do
         kill -0 $child || return
         sleep 0.02
@@ -74,8 +79,7 @@ walltime() {
 # A second run in the folder of one that is at work is refused, and does not disturb it.
 second_run() {
     begin || return
-    solve >"$work/log" 2>&1 &
-    child=$!
+    start
     until [ -e "$work/now/checkpoint.h5" ]; do kill -0 $child || return; sleep 0.02; done
     kill -STOP $child
     stops 3 "another kirsch-solve is at work" solve
@@ -114,7 +118,7 @@ memory() { # program
         [ "$1" = mesh ] || cp "$work/plate/plate.msh" "$work/poor"
         [ "$1" = solve ] && cp "$work/plate/plate.nodes.h5" "$work/poor"
         KIRSCH_FAIL_ALLOCATION=$n "$build/kirsch-$1" --output "$work/poor" --set solver.end_time='0.3 us' \
-            "$work/case.yaml" >"$work/poor.log" 2>&1
+            --set output.every='0.3 us' --set output.history_every='0.1 us' "$work/case.yaml" >"$work/poor.log" 2>&1
         code=$?
         [ $code -eq 0 ] && break
         [ $code -eq 6 ] && grep -q "out of memory" "$work/poor.log" ||
@@ -123,7 +127,7 @@ memory() { # program
         tried=$((tried + 1))
         n=$((n + 1 + n / ${SPARSE:-4}))
     done
-    echo "# figure kirsch-$1: $tried failing allocations tried, the last being number $n or before"
+    echo "# figure kirsch-$1: $tried failing allocations tried, all before number $n"
     [ $tried -gt 5 ]
 }
 
