@@ -7,6 +7,7 @@
 #   make bench      measure the speed; writes build/bench.csv
 #   make deps       list what the system lacks and install it (Debian; sudo where not root)
 #   make corrections  write docs/corrections.md anew: all partial volumes with all surface corrections
+#   make sbom       list what is linked, as SPDX (build/kirsch.spdx)
 #   make pores-500  mesh 500 random fields of 30 pores (GRID=, SEEDS=, PORES=, SPACING= in mm)
 #   make bar        a bar of cubes, pulled, with each surface correction
 #   make cases/NAME run a case that is compared with something known (FULL=1: the published size)
@@ -70,7 +71,7 @@ KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 $(foreach k,$(kernels),$(eval KERNEL_$(k)_mixed := $(KERNEL_$(k)) -DKR_FLOAT))
 
 .PHONY: FORCE all help demo study test bench deps corrections pores-500 equilibrium free-grid bar validate $(cases) \
-        docs format install clean check-deps
+        docs format install clean check-deps sbom
 all: check-deps $(programs) $(scripts)
 
 help:
@@ -185,6 +186,10 @@ validate: all
 
 docs: all
 	@$(BUILD)/kirsch --deck-reference > docs/deck.md
+
+sbom: all
+	@BUILD=$(BUILD) VERSION='$(VERSION)' tests/sbom > $(BUILD)/kirsch.spdx
+	@echo "$(BUILD)/kirsch.spdx: $$(grep -c ^PackageName: $(BUILD)/kirsch.spdx) packages"
 
 format:
 	@clang-format -i $$(git ls-files '*.c' '*.h')

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Checkpoints. The forces are not kept: they follow from displacements and living bonds. A checksum
- * over all arrays tells a damaged file from a good one.
+ * Checkpoints. The forces are not kept: they follow from displacements and living bonds. A seal
+ * behind the data tells a damaged file from a good one before anything of it is believed; the one
+ * before is then taken.
  */
 #include "checkpoint.h"
 
@@ -9,6 +10,7 @@
 #include "base/h5.h"
 #include "base/memory.h"
 #include "base/provenance.h"
+#include "base/seal.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -17,7 +19,7 @@
 #include <unistd.h>
 
 static const char FORMAT[] = "kirsch checkpoint";
-enum { VERSION = 3 };
+enum { VERSION = 4 };
 
 /* The arrays of doubles, one after the other, and their names. */
 struct array {
@@ -43,26 +45,6 @@ static size_t arrays_of(const struct kr_checkpoint *at, struct array array[ARRAY
 /* Living bonds as 32-bit words, a row a byte. */
 static size_t words_of(const struct kr_bonds *bonds) {
     return (bonds->n_rows + 3) / 4;
-}
-
-static uint64_t checksum_of(const struct kr_checkpoint *at) {
-    struct array array[ARRAYS];
-    size_t n = arrays_of(at, array);
-    const struct kr_crack *crack = at->crack;
-    uint64_t hash = KR_HASH_BEGIN;
-    for (size_t k = 0; k < n; k++)
-        hash = kr_hash(hash, array[k].data, array[k].n * sizeof(double));
-    hash = kr_hash(hash, at->body->bonds->living, at->body->bonds->n_rows);
-    hash = kr_hash(hash, crack->pair, crack->count * 2 * sizeof *crack->pair);
-    hash = kr_hash(hash, crack->time, crack->count * sizeof *crack->time);
-    hash = kr_hash(hash, crack->held, crack->count * sizeof *crack->held);
-    const double number[] = {(double)at->step,        at->ledger->external, at->ledger->power,
-                             at->crack->energy,       (double)at->history,  at->dt,
-                             (double)at->steps,       (double)at->stage,    (double)at->before,
-                             at->began,               at->clock,            (double)at->sites,
-                             (double)at->round,       at->most_pull,        (double)at->event,
-                             at->ledger->balance};
-    return kr_hash(hash, number, sizeof number);
 }
 
 /* What a checkpoint belongs to: the nodes as the bonds see them. */
@@ -113,7 +95,6 @@ static void write_all(struct kr_h5 *file, const struct kr_checkpoint *at) {
     kr_h5_set_double(file, "/", "power", at->ledger->power);
     kr_h5_set_double(file, "/", "fracture_work", crack->energy);
     set_hash(file, "nodes_hash", nodes_hash(at->body->bonds));
-    set_hash(file, "checksum", checksum_of(at));
     for (size_t k = 0; k < n; k++)
         kr_h5_write_double(file, array[k].name, array[k].n, 0, array[k].data);
     write_living(file, at->body->bonds);
@@ -129,6 +110,7 @@ void kr_checkpoint_write(const struct kr_case *c, const struct kr_checkpoint *at
     struct kr_h5 *file = kr_h5_create(fresh, FORMAT, VERSION);
     write_all(file, at);
     kr_h5_close(file);
+    kr_seal(fresh);
     if (access(path, F_OK) == 0 && rename(path, before))
         kr_stop(KR_EXIT_STORAGE, "%s: cannot be renamed: %s", path, strerror(errno));
     if (rename(fresh, path))
@@ -214,23 +196,31 @@ static void read_all(const struct kr_h5 *file, struct kr_checkpoint *at) {
     at->ledger->power = kr_h5_get_double(file, "/", "power");
 }
 
-void kr_checkpoint_read(const struct kr_case *c, struct kr_checkpoint *at) {
-    char found[32], *path = kr_case_file(c, "checkpoint.h5");
-    if (access(path, R_OK)) { /* killed between two renames */
+/* The newest one whose seal holds; owned by the caller. */
+static char *find_whole(const struct kr_case *c) {
+    static const char *const names[] = {"checkpoint.h5", "checkpoint-before.h5"};
+    int damaged = 0;
+    for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
+        char *path = kr_case_file(c, names[k]);
+        if (access(path, F_OK) == 0) { /* the first is missing if killed between two renames */
+            if (kr_seal_holds(path))
+                return path;
+            kr_warn("%s is damaged or cut short: its seal does not fit; looking for the one before",
+                    path);
+            damaged++;
+        }
         kr_free(path);
-        path = kr_case_file(c, "checkpoint-before.h5");
     }
-    if (access(path, R_OK))
-        kr_stop(KR_EXIT_INPUT, "there is no checkpoint in %s; run without --resume", c->folder);
+    if (damaged)
+        kr_stop(KR_EXIT_STORAGE, "no checkpoint in %s is whole; run without --resume", c->folder);
+    kr_stop(KR_EXIT_INPUT, "there is no checkpoint in %s; run without --resume", c->folder);
+}
+
+void kr_checkpoint_read(const struct kr_case *c, struct kr_checkpoint *at) {
+    char *path = find_whole(c);
     struct kr_h5 *file = kr_h5_open(path, FORMAT, VERSION);
     check_origin(file, at);
     read_all(file, at);
-    snprintf(found, sizeof found, "%016" PRIx64, checksum_of(at));
-    char *wanted = kr_h5_get_text(file, "/", "checksum");
-    if (strcmp(found, wanted))
-        kr_stop(KR_EXIT_STORAGE, "%s is damaged: its checksum is %s, expected %s; remove it and resume "
-                                 "from the one before", path, found, wanted);
-    kr_free(wanted);
     kr_h5_close(file);
     kr_free(path);
 }

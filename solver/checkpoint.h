@@ -34,8 +34,8 @@ struct kr_checkpoint {
  *  checkpoint-before.h5. Stops (exit 3) where it cannot be written. */
 void kr_checkpoint_write(const struct kr_case *c, const struct kr_checkpoint *at);
 
-/** Read the newest checkpoint that is whole into body, ledger, crack, step and history. Stops
- *  (exit 2) if there is none, or if it was made by another deck (naming the first key that differs),
+/** Read the newest checkpoint that is whole into body, ledger, crack, step and history; a damaged one
+ *  is told and passed over. Stops (exit 3) if there are only damaged ones, (exit 2) if there is none, or if it was made by another deck (naming the first key that differs),
  *  other nodes or another time step. */
 void kr_checkpoint_read(const struct kr_case *c, struct kr_checkpoint *at);
 

@@ -6,6 +6,7 @@
 
 #include <signal.h>
 #include <stddef.h>
+#include <unistd.h>
 
 static volatile sig_atomic_t stop, checkpoint;
 
@@ -21,6 +22,12 @@ void kr_interrupt_begin(void) {
     sigaction(SIGUSR1, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     sigaction(SIGINT, &action, NULL);
+}
+
+void kr_interrupt_after(unsigned seconds) {
+    struct sigaction action = {.sa_handler = note, .sa_flags = SA_RESTART};
+    sigaction(SIGALRM, &action, NULL);
+    alarm(seconds);
 }
 
 enum kr_interrupt kr_interrupt_asked(void) {

@@ -9,10 +9,28 @@
 #include "base/progress.h"
 #include "interrupt.h"
 
+#include <errno.h>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+/* Two runs in one folder would mix their records. The folder itself is locked, which leaves no file;
+   the lock goes with the program, however that ends. Returns what holds it. */
+static int lock_folder(const struct kr_case *c) {
+    int lock = open(c->folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (lock >= 0 && flock(lock, LOCK_EX | LOCK_NB) && errno == EWOULDBLOCK)
+        kr_stop(KR_EXIT_STORAGE,
+                "another kirsch-solve is at work in %s; wait for it, or give this one its own folder "
+                "with --output",
+                c->folder);
+    return lock; /* a file system without locks has none to ask for */
+}
+
 void kr_records_open(struct kr_records *r, struct kr_run *run, const char *deck_text, int resume) {
     const struct kr_case *c = run->c;
     char *path = kr_case_file(c, "history.csv");
     *r = (struct kr_records){.run = run,
+                             .lock = lock_folder(c),
                              .crack = kr_crack_create(run->bonds, c->damage_threshold),
                              .ledger = kr_ledger_create(run->body),
                              .open = run->staged || kr_case_outputs_on_events(c),
@@ -53,6 +71,8 @@ void kr_records_close(struct kr_records *r) {
     kr_history_close(r->history);
     kr_crack_free(r->crack);
     kr_ledger_free(r->ledger);
+    if (r->lock >= 0)
+        close(r->lock);
 }
 
 /* Whether bonds that broke, from the first number to the second, ask for an output. */
@@ -93,8 +113,8 @@ void kr_records_save(struct kr_records *r, long next) {
     r->saved = now;
     if (asked == KR_INTERRUPT_STOP)
         kr_stop(KR_EXIT_SIGNAL,
-                "stopped by a signal before step %ld of %ld; all is in %s/checkpoint.h5: go on with "
-                "the same command (kirsch), or kirsch-solve --resume",
+                "stopped by a signal or the time limit before step %ld of %ld; all is in "
+                "%s/checkpoint.h5: go on with the same command (kirsch), or kirsch-solve --resume",
                 r->at.before + next, r->run->steps, c->folder);
 }
 

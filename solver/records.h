@@ -24,10 +24,11 @@ struct kr_records {
     struct kr_sites *sites; /* NULL in a run without stages */
     struct kr_checkpoint at; /* where the run stands: stage, step in it, steps and time before it */
     double saved; /* clock of the last checkpoint */
+    int lock;     /* open folder, locked for this run */
 };
 
 /** Begin all records of a run, or go on from its last checkpoint: then r->at tells where, and the body
- *  is as it was there. */
+ *  is as it was there. Stops (exit 3) where another run is at work in the case's folder. */
 void kr_records_open(struct kr_records *r, struct kr_run *run, const char *deck_text, int resume);
 void kr_records_close(struct kr_records *r);
 

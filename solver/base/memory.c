@@ -22,13 +22,24 @@ static size_t *header_of(void *array) {
     return (size_t *)((char *)array - HEADER);
 }
 
+/* For tests: KIRSCH_FAIL_ALLOCATION=N lets the N-th allocation of the program fail. */
+static int is_to_fail(void) {
+    static _Atomic long wanted = -1, count; /* -1: not asked yet; 0: none */
+    if (wanted < 0) {
+        const char *text = getenv("KIRSCH_FAIL_ALLOCATION");
+        long n = text ? atol(text) : 0;
+        wanted = n > 0 ? n : 0;
+    }
+    return wanted > 0 && ++count == wanted;
+}
+
 void *kr_alloc(size_t count, size_t size) {
     if (size && count > (SIZE_MAX / 2 - 2 * HEADER) / size)
         kr_stop(KR_EXIT_MEMORY, "%zu items of %zu bytes are more than any machine can hold", count,
                 size);
     size_t bytes = count * size;
     size_t room = (bytes + 2 * HEADER - 1) / HEADER * HEADER;
-    char *block = aligned_alloc(HEADER, room);
+    char *block = is_to_fail() ? NULL : aligned_alloc(HEADER, room);
     if (!block)
         kr_stop(KR_EXIT_MEMORY,
                 "out of memory: %.1f MiB more wanted with %.1f MiB in use; a coarser spacing or a "

@@ -2,6 +2,7 @@
  *
  * Checked, counted allocation. Every array has one owner, who frees it; a test ends by checking
  * that kr_memory_outstanding() is zero. Nothing is allocated inside the time loop.
+ * The environment's KIRSCH_FAIL_ALLOCATION=N makes the N-th allocation of a program fail, for tests.
  */
 #ifndef KR_MEMORY_H
 #define KR_MEMORY_H

@@ -1,0 +1,157 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# Trust: checkpoints that are damaged, a limit of time, memory and storage that
+# give out, files that are cut, numbers that are mistaken.
+prefix=trust
+. tests/cli/steps
+write_case
+often='solver.checkpoint_every=50 ms'
+slow='solver.time_step=20 ns'
+
+solve() { # option...
+    "$build/kirsch-solve" --output "$work/now" --set "$often" --set "$slow" "$@" "$work/case.yaml"
+}
+
+# The same in the background; child is the program itself, so that a kill meets it and no shell before it.
+start() {
+    "$build/kirsch-solve" --output "$work/now" --set "$often" --set "$slow" "$work/case.yaml" >"$work/log" 2>&1 &
+    child=$!
+}
+
+nodes() {
+    [ -f "$work/plate/plate.nodes.h5" ] || steps "$work/plate" "mesh nodes"
+}
+
+# The undisturbed run, and a folder with nodes alone.
+begin() {
+    nodes || return
+    [ -d "$work/whole" ] || { mkdir "$work/now" && cp "$work/plate/plate.nodes.h5" "$work/now" && solve &&
+        mv "$work/now" "$work/whole"; } || return
+    rm -rf "$work/now" && mkdir "$work/now" && cp "$work/plate/plate.nodes.h5" "$work/now"
+}
+
+# Two checkpoints: run until both are there, then kill.
+two_checkpoints() {
+    begin || return
+    start
+    until [ -e "$work/now/checkpoint-before.h5" ] && [ -e "$work/now/checkpoint.h5" ]; do
+        kill -0 $child || return
+        sleep 0.02
+    done
+    kill -KILL $child
+    wait $child 2>/dev/null
+    [ -e "$work/now/checkpoint.h5" ] || mv "$work/now/checkpoint-before.h5" "$work/now/checkpoint.h5"
+}
+
+equal() {
+    cmp "$work/now/history.csv" "$work/whole/history.csv" && diff -r "$work/now/run" "$work/whole/run"
+}
+
+# Write a byte that was not there, or cut: the one before is taken, and the end is the same.
+damaged() { # cut|flip
+    two_checkpoints || return
+    file=$work/now/checkpoint.h5
+    size=$(stat -c %s "$file")
+    if [ "$1" = cut ]; then
+        truncate -s $((size * 2 / 3)) "$file"
+    else
+        byte=$(od -An -tu1 -j $((size / 2)) -N 1 "$file")
+        printf "\\$(printf %03o $((byte ^ 16)))" | dd of="$file" bs=1 seek=$((size / 2)) conv=notrunc 2>/dev/null
+    fi
+    solve --resume >"$work/log" 2>&1 || { cat "$work/log"; return 1; }
+    grep -q "checkpoint.h5 is damaged" "$work/log" && equal
+}
+
+both_damaged() {
+    two_checkpoints || return
+    for file in "$work/now"/checkpoint*.h5; do truncate -s 3000 "$file"; done
+    stops 3 "no checkpoint in .* is whole" solve --resume
+}
+
+# The limit stops with 7; resumed, the end is that of a run without limit.
+walltime() {
+    begin || return
+    stops 7 "time limit" "$build/kirsch-solve" --output "$work/now" --set 'solver.checkpoint_every=0 s' \
+        --set solver.time_step='0.02 ns' --max-walltime 1 "$work/case.yaml" || return
+    [ -s "$work/now/checkpoint.h5" ] && ! [ -e "$work/now/checkpoint-new.h5" ]
+}
+
+# A second run in the folder of one that is at work is refused, and does not disturb it.
+second_run() {
+    begin || return
+    start
+    until [ -e "$work/now/checkpoint.h5" ]; do kill -0 $child || return; sleep 0.02; done
+    kill -STOP $child
+    stops 3 "another kirsch-solve is at work" solve
+    refused=$?
+    kill -CONT $child
+    wait $child && [ $refused -eq 0 ] && equal
+}
+
+# A results file cut anywhere is refused or read, never worse.
+cut_results() {
+    begin || return
+    size=$(stat -c %s "$work/whole/run/crack.h5")
+    for part in 0 1 2 3 5 8 13 21 34 55 89 97 99; do
+        rm -rf "$work/now" && cp -r "$work/whole" "$work/now"
+        truncate -s $((size * part / 100)) "$work/now/run/crack.h5"
+        stops 2 "crack" "$build/kirsch-track" --output "$work/now" "$work/case.yaml" || return
+    done
+}
+
+# No file under its own name may be half written: those that are there can be read whole.
+no_halves() { # folder
+    for file in "$1"/*.nodes.h5 "$1"/run.h5 "$1"/run/*.h5; do
+        [ -e "$file" ] || continue
+        /usr/bin/python3 -c 'import h5py, sys; h5py.File(sys.argv[1]).visititems(
+            lambda name, item: item[()] if hasattr(item, "shape") else None)' "$file" || return
+    done
+}
+
+# The n-th allocation fails, for n over the whole program: exit 6, a sentence, nothing half written.
+memory() { # program
+    nodes || return
+    tried=0
+    n=1
+    while :; do
+        rm -rf "$work/poor" && mkdir "$work/poor"
+        [ "$1" = mesh ] || cp "$work/plate/plate.msh" "$work/poor"
+        [ "$1" = solve ] && cp "$work/plate/plate.nodes.h5" "$work/poor"
+        KIRSCH_FAIL_ALLOCATION=$n "$build/kirsch-$1" --output "$work/poor" --set solver.end_time='0.3 us' \
+            --set output.every='0.3 us' --set output.history_every='0.1 us' "$work/case.yaml" >"$work/poor.log" 2>&1
+        code=$?
+        [ $code -eq 0 ] && break
+        [ $code -eq 6 ] && grep -q "out of memory" "$work/poor.log" ||
+            { echo "allocation $n: exit $code"; cat "$work/poor.log"; return 1; }
+        no_halves "$work/poor" || return
+        tried=$((tried + 1))
+        n=$((n + 1 + n / ${SPARSE:-4}))
+    done
+    echo "# figure kirsch-$1: $tried failing allocations tried, all before number $n"
+    [ $tried -gt 5 ]
+}
+
+# A disk that is full after so many KiB: exit 3, and nothing half written.
+full_disk() { # program KiB
+    nodes || return
+    rm -rf "$work/full" && mkdir "$work/full" && cp "$work/plate/plate.msh" "$work/full"
+    [ "$1" = solve ] && cp "$work/plate/plate.nodes.h5" "$work/full"
+    stops 3 "cannot write\|cannot be written" /usr/bin/python3 -c 'import os, resource, signal, sys
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[1]) * 1024,) * 2)
+os.execv(sys.argv[2], sys.argv[2:])' "$2" "$build/kirsch-$1" --output "$work/full" "$work/case.yaml" &&
+        no_halves "$work/full"
+}
+
+check takes_the_older_checkpoint_if_cut damaged cut
+check takes_the_older_checkpoint_if_changed damaged flip
+check two_damaged_checkpoints both_damaged
+check stops_at_the_time_limit walltime
+check time_limit_of_nothing stops 2 "expected seconds" "$build/kirsch-solve" --max-walltime 0 "$work/case.yaml"
+check refuses_a_second_run second_run
+check results_cut_anywhere cut_results
+for program in mesh nodes solve; do check "memory_gives_out_in_$program" memory $program; done
+check full_disk_in_nodes full_disk nodes 64
+check full_disk_in_solve full_disk solve 16
+check full_disk_in_checkpoint full_disk solve 40
+echo "1..$count"
