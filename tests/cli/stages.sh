@@ -95,7 +95,8 @@ killed() {
 interrupted() {
     begin || return
     go_on
-    sleep 0.3
+    until [ -e "$work/now/run/000000.h5" ] || ! kill -0 $child; do sleep 0.02; done
+    sleep 0.1
     kill -INT $child
     wait $child
     code=$?
