@@ -160,6 +160,7 @@ bench: deps
 	@tests/deps install lammps
 	@OMP_NUM_THREADS=1 lmp -in cases/bench/lammps_pmb.in -log $(BUILD)/lammps.log -screen none || true
 	@$(BUILD)/kirsch-bench $(BUILD)/bench.csv $(BUILD)/lammps.log
+	@BUILD=$(BUILD) cases/bench/large $(BUILD)/bench.csv
 
 corrections: all $(BUILD)/corrections
 	@BUILD=$(BUILD) cases/corrections/table

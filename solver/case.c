@@ -405,7 +405,7 @@ static const struct kr_deck_key solver_keys[] = {
      .text = "Step of velocity-Verlet; 0: the largest stable step times `safety_factor`."},
     {"precision", KR_DECK_CHOICE, AT(precision), .words = "double mixed", .fallback = "double",
      .text = "`mixed`: what the loop over bonds makes of the differences of displacements is "
-             "float32, some 10 % faster ([performance.md](performance.md#mixed-precision))."},
+             "float32, which is faster ([performance.md](performance.md#mixed-precision))."},
     {"safety_factor", NUMBER_OF(AT(safety_factor), "1"), .fallback = "0.8", .least = 0, .most = 1,
      .exclusive = 1, .text = "Share of the largest stable step that is taken."},
     {"checkpoint_every", NUMBER_OF(AT(checkpoint_every), "s"), .fallback = "600 s", NOT_NEGATIVE,

@@ -99,8 +99,10 @@ int kr_doctor(void) {
     good &= check_python();
     good &= report("ffmpeg (films only)", runs((char *[]){"ffmpeg", "-version", NULL}),
                    "apt-get install ffmpeg");
-    kr_say("  loop over bonds: built for %s; %d threads (OMP_NUM_THREADS)", kr_kernel_best()->name,
-           omp_get_max_threads());
+    kr_say("  loop over bonds: built for %s; %d threads (OMP_NUM_THREADS) on %d processors, %s",
+           kr_kernel_best()->name, omp_get_max_threads(), omp_get_num_procs(),
+           omp_get_proc_bind() == omp_proc_bind_false ? "not bound to them (OMP_PROC_BIND)"
+                                                      : "bound to them");
     kr_say(good ? "all is well" : "something is missing");
     kr_unit_close();
     return good ? KR_EXIT_OK : KR_EXIT_LIBRARY;

@@ -34,6 +34,9 @@ struct kr_kernel {
     void (*force)(const struct kr_kernel_work *work, size_t begin, size_t end);
     void (*energy)(const struct kr_kernel_work *work, size_t begin, size_t end);
     void (*product)(const struct kr_kernel_work *work, size_t begin, size_t end);
+    /* Does `count` multiply-adds on numbers of the loop's kind, as fast as this processor can, and
+       returns a number made of them; for kirsch-bench. */
+    double (*multiply_adds)(size_t count);
 };
 
 /** The best build for this processor; the environment's KIRSCH_KERNEL (baseline, avx2, avx512) picks

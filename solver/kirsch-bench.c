@@ -28,7 +28,10 @@ struct set {
     enum where where;
     int threads, mixed;
     double rate;           /* out: directed bond updates a second */
-    double bytes_per_node; /* out */
+    double bytes_per_node; /* out: in the loop, without the node file's content */
+    double peak_per_node;  /* out: at the most so far in this process, with it */
+    int terms;             /* out: of the loop's polynomial */
+    double bytes;          /* out: moved per directed bond */
 };
 
 /* A number in [-1, 1] that depends on k alone. */
@@ -118,6 +121,15 @@ static void put(FILE *file, const char *name, double value, const char *unit) {
     kr_say("  %-28s %10.4g %s", name, value, unit);
 }
 
+/* Bytes a step moves, per directed bond, if each array comes from memory once: what the families
+ * hold; u read and force written (a written line is read first) by the loop; u, v and force read, u
+ * and v written by kick and drift. */
+static double bytes_of(const struct kr_body *body) {
+    const double numbers = body->dim * (1 + 2 + 3 + 2);
+    return ((double)kr_bonds_size(body->bonds).bytes + numbers * 8 * (double)body->n) /
+           (double)body->bonds->count;
+}
+
 static void measure(struct set *set) {
     struct kr_nodes *nodes = set->where == BLOCK ? make_block() : make_plate(set->where);
     size_t before = kr_memory_bytes();
@@ -125,9 +137,57 @@ static void measure(struct set *set) {
     struct kr_bonds *bonds = body->bonds;
     set->rate = rate_of(body);
     set->bytes_per_node = (double)(kr_memory_bytes() - before) / (double)nodes->n;
+    set->peak_per_node = (double)kr_memory_peak() / (double)nodes->n;
+    set->terms = bonds->fit.pull.terms;
+    set->bytes = bytes_of(body);
     kr_body_free(body);
     kr_bonds_free(bonds);
     kr_nodes_free(nodes);
+}
+
+/* Multiply-adds a second on one core. */
+static double multiply_adds_of(const struct kr_kernel *kernel) {
+    enum { RUNS = 15, COUNT = 40000000 };
+    double best = INFINITY, sum = 0;
+    for (int run = 0; run < RUNS; run++) {
+        double begun = kr_progress_clock();
+        sum += kernel->multiply_adds(COUNT);
+        best = fmin(best, kr_progress_clock() - begun);
+    }
+    kr_assert(sum > 0); /* it was done */
+    return COUNT / best;
+}
+
+/* Bytes a second that a = b + 2 c moves on one core; what is written is read first. */
+static double triad_of(void) {
+    enum { RUNS = 7, COUNT = 8000000 };
+    double *a = KR_NEW(double, COUNT), *b = KR_NEW(double, COUNT), *c = KR_NEW(double, COUNT);
+    double best = INFINITY;
+    for (int run = 0; run < RUNS; run++) {
+        for (size_t i = 0; i < COUNT; i++)
+            b[i] = c[i] = run;
+        double begun = kr_progress_clock();
+        for (size_t i = 0; i < COUNT; i++)
+            a[i] = b[i] + 2 * c[i];
+        best = fmin(best, kr_progress_clock() - begun);
+        kr_assert(a[COUNT / 2] == 3 * run);
+    }
+    kr_free(a);
+    kr_free(b);
+    kr_free(c);
+    return 4.0 * sizeof(double) * COUNT / best;
+}
+
+/* The most a core could do of a set, and the share it did. A bond of the plane takes 7 multiplications
+ * or multiply-adds and one for each term of the polynomial; docs/performance.md. */
+static void put_share(FILE *file, const struct set *set) {
+    double adds = multiply_adds_of(kr_kernel_best()), triad = triad_of();
+    double limit = fmin(adds / (7 + set->terms), triad / set->bytes);
+    put(file, "multiply_adds_double_1", adds, "1/s");
+    put(file, "triad_1", triad, "B/s");
+    put(file, "bytes_per_bond_2d", set->bytes, "B");
+    put(file, "limit_2d", limit, "1/s");
+    put(file, "share_of_limit_2d", set->rate / limit, "1");
 }
 
 /* The time of LAMMPS' loop in its log [s]; NAN where it cannot be read. */
@@ -154,6 +214,8 @@ static void measure_all(FILE *file, const char *log) {
     const int two = omp_get_num_procs() > 1;
     struct set plane = measure_and_put(file, "pmb_2d_double_1", JITTER_PATCHES, 1, 0);
     put(file, "memory_per_node_2d_B", plane.bytes_per_node, "B");
+    put(file, "memory_peak_per_node_2d_B", plane.peak_per_node, "B");
+    put_share(file, &plane);
     if (two) {
         struct set both = measure_and_put(file, "pmb_2d_double_2", JITTER_PATCHES, 2, 0);
         put(file, "pmb_2d_threads_2_over_1", both.rate / plane.rate, "1");
