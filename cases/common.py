@@ -47,8 +47,9 @@ class Case:
         self.seconds, self.megabytes = 0.0, 0.0  # wall time of all runs, most memory of one
 
     def path(self, label, *file):
-        """Path of a file of a run."""
-        return os.path.join("out", "cases", self.name, self.size, label, *file)
+        """Path of a file of a run. The label `CASE:RUN` is a run of another case, shared with it."""
+        owner, _, run = label.rpartition(":")
+        return os.path.join("out", "cases", owner or self.name, self.size, run, *file)
 
     def kirsch(self, label, settings=None, until="solve", deck="case.yaml"):
         """Run the steps of the deck that are out of date, with settings {key: value} over it."""

@@ -91,17 +91,16 @@ def look(case, label, notch):
     return tips, events, branches, summary
 
 
-def run(case, notch, grid=None, extra=None):
-    """Run the case with this notch on this grid (None: the deck's)."""
-    label = notch if grid is None else f"{notch}-{grid}"
+def run(case, notch, grid=None, deck="case.yaml", owner=""):
+    """Run a deck with this notch on this grid (None: the deck's), as a run of the case `owner`."""
+    label = owner + (notch if grid is None else f"{notch}-{grid}")
     settings = {"cracks.precracks.0.to": f"[{1e3 * NOTCH[notch]} mm, 12.5 mm]",
                 "solver.end_time": END[notch]}
     if grid:
         settings["mesh.grid"] = grid
     if grid == "voronoi":
         settings["nodes.partial_volume"] = "exact-centroid"
-    settings.update(extra or {})
-    case.kirsch(label, settings, until="plot")
+    case.kirsch(label, settings, until="plot", deck=deck)
     return label
 
 
