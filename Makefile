@@ -15,6 +15,7 @@
 #   make equilibrium  measure the static solver at three sizes, up to 780 000 nodes
 #   make free-grid  measure the free grid at three sizes (the table in docs/grids.md)
 #   make lloyd-solid  measure what Lloyd's steps would gain in space (a table in docs/grids.md)
+#   make soak       leave a run alone for two hours (HOURS=), and ask what became of it
 #   make docs       write docs/deck.md anew from the table that reads the deck
 #   make format     clang-format the sources
 #   make install    PREFIX=/usr/local
@@ -71,7 +72,7 @@ KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 $(foreach k,$(kernels),$(eval KERNEL_$(k)_mixed := $(KERNEL_$(k)) -DKR_FLOAT))
 
-.PHONY: FORCE all help demo study test bench deps corrections pores-500 equilibrium free-grid lloyd-solid bar validate $(cases) \
+.PHONY: FORCE all help demo study test bench deps corrections pores-500 equilibrium free-grid lloyd-solid bar soak validate $(cases) \
         docs format install clean check-deps sbom
 all: check-deps $(programs) $(scripts)
 
@@ -192,6 +193,10 @@ $(cases): all
 validate: all
 	@tests/deps install $(CASES_PACKAGES)
 	@BUILD=$(BUILD) cases/validate
+
+soak: all
+	@tests/deps install $(CASES_PACKAGES)
+	@BUILD=$(BUILD) cases/soak/soak
 
 docs: all
 	@$(BUILD)/kirsch --deck-reference > docs/deck.md

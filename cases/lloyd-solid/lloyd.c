@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * What Lloyd's steps would gain in space: a sphere of 8 spacings in a cube of 40, over five places of
+ * What Lloyd's steps would gain in space: a sphere of 6 spacings in a cube of 28, over three places of
  * its centre, on the grids of solids and on Voronoi cells around seeds that begin at the centroids of the
  * cut cells and are moved to the centroids of their own cells, again and again, where they lie within the
  * horizon of the sphere. These cells are summed over 8^3 samples a cube, which is enough to measure
@@ -26,8 +26,8 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { CELLS = 40, FINE = 8, PLACES = 5, ZONES = 2, STRAINS = 3 };
-static const double SPACING = 1e-4, RADIUS = 8, HORIZON = 3; /* m; spacings */
+enum { CELLS = 28, FINE = 8, PLACES = 3, ZONES = 2, STRAINS = 3, ISOTROPIC = 1, TERMS = 5 };
+static const double SPACING = 1e-4, RADIUS = 6, HORIZON = 3; /* m; spacings */
 static const double STRAIN = 1e-6;                           /* the law is linear to 1e-6 there */
 static const double gradient[STRAINS][3][3] = {
     {{1, 0, 0}, {0, 0, 0}, {0, 0, 0}}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 0}, {0, 0, 0}, {0, 0, 0}}};
@@ -35,7 +35,8 @@ static const double classical[STRAINS] = {0.6, 3, 0.2};
 
 struct figures {
     double least, most, scatter;           /* volumes of cells within a horizon of the sphere */
-    double energy[ZONES][STRAINS], ghost[ZONES]; /* rms; zones: within a horizon of the sphere, beyond */
+    double rim, along;                     /* there: scatter of the energy, force along the surface */
+    double energy[STRAINS], ghost;         /* beyond, where families are whole: rms errors */
     double seconds;
 };
 
@@ -185,7 +186,7 @@ static struct kr_nodes *nodes_of(const double *centre, enum kr_grid grid, char *
 static int zone_of(const struct kr_bonds *b, size_t i, const double *centre) {
     const double p[3] = {b->x[0][i] / SPACING, b->x[1][i] / SPACING, b->x[2][i] / SPACING};
     double away = away_from(centre, p);
-    return away < HORIZON ? 0 : away > 1.2 * HORIZON && away < 2 * HORIZON ? 1 : ZONES;
+    return away < HORIZON ? 0 : away > 1.2 * HORIZON && away < 1.6 * HORIZON ? 1 : ZONES;
 }
 
 static void strain_body(struct kr_body *body, int strain) {
@@ -197,26 +198,87 @@ static void strain_body(struct kr_body *body, int strain) {
         }
 }
 
+/** Coefficients of the polynomial in t nearest to given moments  sum v t^k y,  sum v t^k. */
+static void fit(double *y, const double *t) {
+    double a[TERMS][TERMS];
+    for (int r = 0; r < TERMS; r++)
+        for (int c = 0; c < TERMS; c++)
+            a[r][c] = t[r + c];
+    for (int k = 0; k < TERMS; k++) /* a Gram matrix: no pivots are needed */
+        for (int r = k + 1; r < TERMS; r++) {
+            double factor = a[r][k] / a[k][k];
+            for (int c = k; c < TERMS; c++)
+                a[r][c] -= factor * a[k][c];
+            y[r] -= factor * y[k];
+        }
+    for (int r = TERMS; r-- > 0;) {
+        for (int c = r + 1; c < TERMS; c++)
+            y[r] -= a[r][c] * y[c];
+        y[r] /= a[r][r];
+    }
+}
+
+static double value_at(const double *coefficient, double t) {
+    double sum = 0;
+    for (int k = TERMS; k-- > 0;)
+        sum = sum * t + coefficient[k];
+    return sum;
+}
+
+/** Under isotropic strain all depends on the distance from the sphere alone: what the energy scatters
+ *  about a quartic in it, and forces along the surface, are the grid's doing. */
+static void measure_rim(const struct kr_body *body, const double *centre, double W, double pull,
+                        struct figures *f) {
+    const struct kr_bonds *b = body->bonds;
+    double y[TERMS] = {0}, t[2 * TERMS] = {0}, squares = 0, along = 0;
+    for (int pass = 0; pass < 2; pass++) {
+        for (size_t i = 0; i < b->n; i++) {
+            double q[3], out = 0, all = 0;
+            if (zone_of(b, i, centre) != 0)
+                continue;
+            for (int d = 0; d < 3; d++)
+                q[d] = b->x[d][i] / SPACING - centre[d];
+            double r = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2]), at = (r - RADIUS) / HORIZON;
+            for (int k = 0; k < 2 * TERMS && !pass; k++) {
+                t[k] += b->volume[i] * pow(at, k);
+                if (k < TERMS)
+                    y[k] += b->volume[i] * pow(at, k) * body->energy[i] / W;
+            }
+            for (int d = 0; d < 3; d++) {
+                out += body->force[d][i] * q[d] / r;
+                all += body->force[d][i] * body->force[d][i];
+            }
+            squares += pass ? b->volume[i] * pow(body->energy[i] / W - value_at(y, at), 2) : 0;
+            along += pass ? b->volume[i] * (all - out * out) : 0;
+        }
+        if (!pass)
+            fit(y, t);
+    }
+    f->rim += sqrt(squares / t[0]) / PLACES;
+    f->along += sqrt(fmax(along, 0) / t[0]) / pull / PLACES;
+}
+
 static void measure_strain(struct kr_body *body, const double *centre, int strain, struct figures *f) {
     const struct kr_bonds *b = body->bonds;
     double W = classical[strain] * b->material.youngs_modulus * STRAIN * STRAIN;
     double pull = b->material.youngs_modulus * STRAIN / (HORIZON * SPACING);
-    double sum[ZONES + 1] = {0}, ghost[ZONES + 1] = {0}, volume[ZONES + 1] = {0};
+    double sum = 0, ghost = 0, volume = 0;
     strain_body(body, strain);
     kr_body_energy(body);
     kr_body_force(body, 0);
-    for (size_t i = 0; i < body->n; i++) {
-        int zone = zone_of(b, i, centre);
-        sum[zone] += b->volume[i] * pow(body->energy[i] / W - 1, 2);
-        volume[zone] += b->volume[i];
+    if (strain == ISOTROPIC)
+        measure_rim(body, centre, W, pull, f);
+    for (size_t i = 0; i < b->n; i++) {
+        if (zone_of(b, i, centre) != 1)
+            continue;
+        sum += b->volume[i] * pow(body->energy[i] / W - 1, 2);
+        volume += b->volume[i];
         for (int d = 0; d < 3; d++)
-            ghost[zone] += b->volume[i] * pow(body->force[d][i] / pull, 2);
+            ghost += b->volume[i] * pow(body->force[d][i] / pull, 2);
     }
-    for (int zone = 0; zone < ZONES; zone++) {
-        f->energy[zone][strain] += sqrt(sum[zone] / volume[zone]) / PLACES;
-        if (strain == 1)
-            f->ghost[zone] += sqrt(ghost[zone] / volume[zone]) / PLACES;
-    }
+    f->energy[strain] += sqrt(sum / volume) / PLACES;
+    if (strain == ISOTROPIC)
+        f->ghost += sqrt(ghost / volume) / PLACES;
 }
 
 static void measure_volumes(const struct kr_bonds *b, const double *centre, struct figures *f) {
@@ -231,7 +293,7 @@ static void measure_volumes(const struct kr_bonds *b, const double *centre, stru
         squares += share * share;
         count++;
     }
-    f->scatter += sqrt(squares / count - pow(sum / count, 2)) / (sum / count) / PLACES;
+    f->scatter += sqrt(fmax(squares / count - pow(sum / count, 2), 0)) / (sum / count) / PLACES;
 }
 
 /** Add what a grid, or `lloyd` steps from the cut cells, gives with the sphere at one place. */
@@ -263,11 +325,10 @@ static void print_row(const char *name, enum kr_grid grid, int lloyd, char *help
         measure(centre, grid, lloyd, helper, &f);
     }
     printf("| %s | %.2f | %.2f | %.3f |", name, f.least, f.most, f.scatter);
-    for (int zone = 0; zone < ZONES; zone++) {
-        for (int strain = 0; strain < STRAINS; strain++)
-            printf(" %.2f |", 100 * f.energy[zone][strain]);
-        printf(" %.2f |", 100 * f.ghost[zone]);
-    }
+    printf(" %.2f | %.2f |", 100 * f.rim, 100 * f.along);
+    for (int strain = 0; strain < STRAINS; strain++)
+        printf(" %.2f |", 100 * f.energy[strain]);
+    printf(" %.2f |", 100 * f.ghost);
     printf(" %.2f |\n", f.seconds);
     fflush(stdout);
 }
@@ -276,8 +337,8 @@ int main(int argc, char **argv) {
     kr_error_program("lloyd");
     if (argc != 2)
         kr_stop(KR_EXIT_INPUT, "lloyd KIRSCH-GMSH: `make lloyd-solid` calls it");
-    puts("| cells | least | most | scatter | rim u | rim i | rim s | ghost | beyond u | beyond i | beyond s |"
-         " ghost | s |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|");
+    puts("| cells | least | most | scatter | rim: energy | force along | beyond: uniaxial | isotropic |"
+         " shear | force | s |\n|---|---|---|---|---|---|---|---|---|---|---|");
     print_row("`uniform`", KR_GRID_UNIFORM, -1, argv[1]);
     print_row("`near-boundary`", KR_GRID_NEAR_BOUNDARY, -1, argv[1]);
     print_row("`voronoi`: cut cubes", KR_GRID_VORONOI, -1, argv[1]);
