@@ -26,6 +26,10 @@ static const struct {
 } methods[] = {{"gmsh's Delaunay", 1, 1}, {"gmsh's Delaunay, not optimized", 1, 0}};
 enum { METHODS = sizeof methods / sizeof *methods };
 
+/* The one warning that is no failure, gmsh's last: slivers are left. Cells are checked one by one, their least
+ * volume stands in the report, and without moving and swapping there would be more. */
+static const char ILL_SHAPED[] = "ill-shaped tets are still in the mesh";
+
 static double six_volumes(const double *a, const double *b, const double *c, const double *d) {
     double u[3], v[3], w[3];
     for (int k = 0; k < 3; k++) {
@@ -239,6 +243,8 @@ static char *judge(struct work *work, struct attempt *attempt, int status) {
     char *line = kr_child_line(&attempt->child, "Error"), *both;
     if (!line)
         line = kr_child_line(&attempt->child, "Warning");
+    if (line && strstr(line, ILL_SHAPED))
+        line = kr_free(line);
     if (!trouble && !line)
         return take(&work->region[attempt->region], attempt->sent, attempt->child.out);
     both = trouble && line ? kr_text("%s; it said: %s", trouble, line)

@@ -108,6 +108,11 @@ static void solid_crashes_warnings_and_hangs_are_told(void **unused) {
     char *body = kr_text("echo 'Warning : odd' >&2; printf '%%b' '%s'", good);
     expect_kept(body, "it said: Warning : odd");
     kr_free(body);
+    body = kr_text("echo 'Warning : 1 ill-shaped tets are still in the mesh' >&2; printf '%%b' '%s'", good);
+    char *slivers = helper("slivers", body);
+    kr_check_stops(fill, slivers, 0, "2 cells by gmsh's Delaunay\n");
+    kr_free(slivers);
+    kr_free(body);
     char *path = helper("hangs", "while :; do :; done");
     time_t began = time(NULL);
     kr_check_stops(fill, path, 0, "not optimized failed: it was not done after 2 s");
