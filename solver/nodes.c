@@ -165,22 +165,34 @@ static int is_solid(int64_t vertices) {
     return vertices >= 24 && vertices % 4 == 0;
 }
 
-static char *fault_of_cells(const struct kr_nodes *nodes) {
-    if (!nodes->n_points)
-        return NULL;
+/* Where the corners of each cell begin: looked at before any corner, for a place beyond the end may stand
+ * anywhere in between. */
+static char *fault_of_begins(const struct kr_nodes *nodes) {
     for (size_t i = 0; i < nodes->n; i++) {
+        if (nodes->first[i] < 0 || nodes->first[i + 1] < nodes->first[i])
+            return kr_text("the corners of node %zu's cell begin at %lld, and those of the next at %lld; "
+                           "expected ascending places", i, (long long)nodes->first[i],
+                           (long long)nodes->first[i + 1]);
         int64_t corners = nodes->first[i + 1] - nodes->first[i];
         if (corners < 3)
             return kr_text("the cell of node %zu has fewer than 3 corners", i);
         if (nodes->dim == 3 && !is_solid(corners))
             return kr_text("the cell of node %zu has %lld vertices, and no solid has so many", i,
                            (long long)corners);
-        for (int64_t k = nodes->first[i]; k < nodes->first[i + 1]; k++)
-            if (nodes->vertex[k] < 0 || nodes->vertex[k] >= (int64_t)nodes->n_points)
-                return kr_text("the cell of node %zu has the corner %lld; expected 0 to %zu", i,
-                               (long long)nodes->vertex[k], nodes->n_points - 1);
     }
     return NULL;
+}
+
+static char *fault_of_cells(const struct kr_nodes *nodes) {
+    if (!nodes->n_points)
+        return NULL;
+    char *fault = fault_of_begins(nodes);
+    for (size_t i = 0; i < nodes->n && !fault; i++)
+        for (int64_t k = nodes->first[i]; k < nodes->first[i + 1] && !fault; k++)
+            if (nodes->vertex[k] < 0 || nodes->vertex[k] >= (int64_t)nodes->n_points)
+                fault = kr_text("the cell of node %zu has the corner %lld; expected 0 to %zu", i,
+                                (long long)nodes->vertex[k], nodes->n_points - 1);
+    return fault;
 }
 
 /* Two nodes at one place have no bond direction. A millionth of the spacing is one place. */
