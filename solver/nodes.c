@@ -121,6 +121,9 @@ void kr_nodes_reorder(struct kr_nodes *nodes, const size_t *order) {
 
 /* ---- checks ---- */
 
+/* m. Squares of distances must stay numbers. */
+static const double farthest = 1e100;
+
 static char *fault_of_numbers(const struct kr_nodes *nodes) {
     size_t dim = (size_t)nodes->dim;
     for (size_t i = 0; i < nodes->n; i++) {
@@ -128,6 +131,9 @@ static char *fault_of_numbers(const struct kr_nodes *nodes) {
             if (!isfinite(nodes->position[i * dim + d]))
                 return kr_text("node %zu (tag %lld) has the position %g; expected a finite number",
                                i, (long long)nodes->tag[i], nodes->position[i * dim + d]);
+            else if (fabs(nodes->position[i * dim + d]) > farthest)
+                return kr_text("node %zu (tag %lld) stands at %g m; expected at most %g", i,
+                               (long long)nodes->tag[i], nodes->position[i * dim + d], farthest);
         if (!(nodes->volume[i] > 0) || !isfinite(nodes->volume[i]))
             return kr_text("node %zu (tag %lld) has the volume %g; expected a positive number", i,
                            (long long)nodes->tag[i], nodes->volume[i]);
