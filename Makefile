@@ -12,6 +12,7 @@
 #   make bar        a bar of cubes, pulled, with each surface correction
 #   make cases/NAME run a case that is compared with something known (FULL=1: the published size)
 #   make validate   run all of them, small; writes build/validation.csv
+#   make oracle     what development checks against PETSc and VTK, where they are installed
 #   make equilibrium  measure the static solver at three sizes, up to 780 000 nodes
 #   make free-grid  measure the free grid at three sizes (the table in docs/grids.md)
 #   make lloyd-solid  measure what Lloyd's steps would gain in space (a table in docs/grids.md)
@@ -72,7 +73,8 @@ KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 $(foreach k,$(kernels),$(eval KERNEL_$(k)_mixed := $(KERNEL_$(k)) -DKR_FLOAT))
 
-.PHONY: FORCE all help demo study test bench deps corrections pores-500 equilibrium free-grid lloyd-solid bar soak validate $(cases) \
+.PHONY: FORCE all help demo study test oracle bench deps corrections pores-500 equilibrium free-grid lloyd-solid bar \
+        soak validate $(cases) \
         docs format install clean check-deps sbom
 all: check-deps $(programs) $(scripts)
 
@@ -148,6 +150,18 @@ $(BUILD)/bar: $(BUILD)/cases/bar/bar.o $(BUILD)/libkirsch.a
 	@echo "  link  $(@F)"
 	$(Q)$(CC) $(CFLAGS) -fopenmp $^ $(LIBS) -o $@
 
+$(BUILD)/plain: $(BUILD)/cases/equilibrium/plain.o $(BUILD)/libkirsch.a
+	@echo "  link  $(@F)"
+	$(Q)$(CC) $(CFLAGS) -fopenmp $^ $(LIBS) -o $@
+
+# Against PETSc, which brings an MPI of its own: a program of its own, no part of the tests.
+ORACLE_FLAGS = $(filter-out -D%,$(subst -I,-isystem ,$(shell pkg-config --cflags petsc)))
+$(BUILD)/tests/oracle/petsc: tests/oracle/petsc.c tests/test.h $(BUILD)/libkirsch.a
+	@mkdir -p $(@D)
+	@echo "  test  $<"
+	$(Q)$(CC) $(ALL_FLAGS) -Itests $(ORACLE_FLAGS) $< $(BUILD)/libkirsch.a $(LIBS) \
+	    $(shell pkg-config --libs petsc) -lcmocka -o $@
+
 # ---- running --------------------------------------------------------------------------------
 demo: deps
 	@$(MAKE) --no-print-directory all
@@ -168,6 +182,14 @@ bench: deps
 	@$(BUILD)/kirsch-bench $(BUILD)/bench.csv $(BUILD)/lammps.log
 	@BUILD=$(BUILD) cases/bench/large $(BUILD)/bench.csv
 
+oracle: all
+	@if pkg-config --exists petsc; then \
+	    $(MAKE) --no-print-directory $(BUILD)/tests/oracle/petsc && \
+	    OMP_WAIT_POLICY=passive $(BUILD)/tests/oracle/petsc; \
+	else echo "skipped: PETSc is not here (Debian: libpetsc-real-dev)"; fi
+	@if /usr/bin/python3 -c 'import vtkmodules' 2>/dev/null; then BUILD=$(BUILD) tests/oracle/closed; \
+	else echo "skipped: VTK for Python is not here (Debian: python3-vtk9)"; fi
+
 corrections: all $(BUILD)/corrections
 	@BUILD=$(BUILD) cases/corrections/table
 
@@ -177,7 +199,7 @@ pores-500: all $(BUILD)/fields
 bar: all $(BUILD)/bar
 	@BUILD=$(BUILD) cases/bar/table
 
-equilibrium: all
+equilibrium: all $(BUILD)/plain
 	@BUILD=$(BUILD) cases/equilibrium/table
 
 free-grid: all
