@@ -17,6 +17,7 @@
 #   make free-grid  measure the free grid at three sizes (the table in docs/grids.md)
 #   make bench-read time the reader of gmsh's meshes
 #   make node-order  time the loop over bonds with nodes in rows, by METIS, along curves, ...
+#   make lloyd-solid  measure what Lloyd's steps would gain in space (a table in docs/grids.md)
 #   make soak       leave a run alone for two hours (HOURS=), and ask what became of it
 #   make docs       write docs/deck.md anew from the table that reads the deck
 #   make format     clang-format the sources
@@ -74,7 +75,9 @@ KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 $(foreach k,$(kernels),$(eval KERNEL_$(k)_mixed := $(KERNEL_$(k)) -DKR_FLOAT))
 
-.PHONY: FORCE all help demo study test oracle bench deps corrections pores-500 equilibrium free-grid bar soak validate $(cases) \
+.PHONY: FORCE all help demo study test oracle bench deps corrections pores-500 equilibrium free-grid lloyd-solid bar \
+        node-order bench-read \
+        soak validate $(cases) \
         docs format install clean check-deps sbom
 all: check-deps $(programs) $(scripts)
 
@@ -137,6 +140,10 @@ $(BUILD)/tests/%: tests/%.c tests/test.h $(BUILD)/libkirsch.a
 $(BUILD)/fields: $(BUILD)/cases/pores-500/fields.o $(BUILD)/libkirsch.a
 	@echo "  link  $(@F)"
 	$(Q)$(CC) $(CFLAGS) -fopenmp $^ $(LIBS) -o $@
+
+$(BUILD)/lloyd: $(BUILD)/cases/lloyd-solid/lloyd.o $(BUILD)/libkirsch.a
+	@echo "  link  $(@F)"
+	$(Q)$(CC) $(CFLAGS) -fopenmp $^ $(LIBS) -Wl,--as-needed $(CGAL_LIBS) -o $@
 
 $(BUILD)/corrections: $(BUILD)/cases/corrections/corrections.o $(BUILD)/libkirsch.a
 	@echo "  link  $(@F)"
@@ -203,11 +210,20 @@ pores-500: all $(BUILD)/fields
 bar: all $(BUILD)/bar
 	@BUILD=$(BUILD) cases/bar/table
 
+bench-read: all $(BUILD)/read
+	@BUILD=$(BUILD) cases/bench/meshes
+
+node-order: all $(BUILD)/order
+	@BUILD=$(BUILD) cases/node-order/table
+
 equilibrium: all $(BUILD)/plain
 	@BUILD=$(BUILD) cases/equilibrium/table
 
 free-grid: all
 	@BUILD=$(BUILD) cases/free-grid/table
+
+lloyd-solid: all $(BUILD)/lloyd
+	@$(BUILD)/lloyd $(BUILD)/kirsch-gmsh
 
 $(cases): all
 	@tests/deps install $(CASES_PACKAGES)
@@ -240,4 +256,5 @@ clean:
 	rm -rf $(BUILD)
 
 -include $(library_o:.o=.d) $(kernel_o:.o=.d) $(patsubst %.c,$(BUILD)/%.d,$(programs_c)) $(tests:=.d) \
-         $(BUILD)/cases/node-order/order.d $(BUILD)/cases/bench/read.d $(BUILD)/cases/corrections/corrections.d $(BUILD)/cases/pores-500/fields.d $(BUILD)/cases/bar/bar.d
+         $(BUILD)/cases/node-order/order.d $(BUILD)/cases/bench/read.d $(BUILD)/cases/lloyd-solid/lloyd.d \
+         $(BUILD)/cases/corrections/corrections.d $(BUILD)/cases/pores-500/fields.d $(BUILD)/cases/bar/bar.d
