@@ -75,10 +75,10 @@ static int loose_pivot(int m, double a[MOTIONS][MOTIONS]) {
 
 const char *kr_held_free_motion(const struct kr_bonds *b, const unsigned char *fixed,
                                 size_t *node) {
-    static const char *const in_plane[] = {"along x", "along y", "turning in its plane"};
-    static const char *const in_space[] = {"along x",
-                                           "along y",
-                                           "along z",
+    static const char *const in_plane[] = {"moving along x", "moving along y", "turning in its plane"};
+    static const char *const in_space[] = {"moving along x",
+                                           "moving along y",
+                                           "moving along z",
                                            "turning about an axis along z",
                                            "turning about an axis along x",
                                            "turning about an axis along y"};
