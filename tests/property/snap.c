@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * A slender strip pressed along itself in one load step buckles far: Newton's method alone ends without an
+ * A slender strip pressed along itself in one load step buckles far: a first run of Newton's method ends without an
  * equilibrium. A static stage then lets the strip go in damped motion, and finds the one that small load steps
  * lead to.
  */
