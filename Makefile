@@ -4,6 +4,7 @@
 #   make demo       a crack runs through a porous plate; ends with pictures (FULL=1: the paper's size)
 #   make study      run the example study of random pores; goes on where it was interrupted
 #   make test       all tests (ONLY=word: those whose name contains the word)
+#   make fuzz       damaged files for every reader, under AFL++ (FUZZ_SECONDS= each, KINDS=)
 #   make bench      measure the speed; writes build/bench.csv
 #   make deps       list what the system lacks and install it (Debian; sudo where not root)
 #   make corrections  write docs/corrections.md anew: all partial volumes with all surface corrections
@@ -15,6 +16,7 @@
 #   make oracle     what development checks against PETSc and VTK, where they are installed
 #   make equilibrium  measure the static solver at three sizes, up to 780 000 nodes
 #   make free-grid  measure the free grid at three sizes (the table in docs/grids.md)
+#   make lloyd-solid  measure what Lloyd's steps would gain in space (a table in docs/grids.md)
 #   make soak       leave a run alone for two hours (HOURS=), and ask what became of it
 #   make docs       write docs/deck.md anew from the table that reads the deck
 #   make format     clang-format the sources
@@ -36,15 +38,21 @@ Q        := $(if $(V),,@)
 WARNINGS := -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes -Wmissing-prototypes \
             -Wno-missing-field-initializers
 VERSION  := $(shell git describe --always --dirty --tags 2>/dev/null || echo unknown)
+# The bond loop is worth -O3, but not the minutes that the sanitizers make of it.
+KERNEL_FLAGS = $(if $(SANITIZE),-O1,-O3)
 ifdef SANITIZE
 CFLAGS   += -fsanitize=address,undefined -fno-omit-frame-pointer
 endif
-ALL_FLAGS = -std=c11 -D_GNU_SOURCE -fopenmp $(WARNINGS) $(CFLAGS) -Isolver -Ipre -Ipost -MMD -MP \
+# What makes a fault hard to use: canaries, checked copies, addresses that move, tables that are read-only.
+# docs/reliability.md has the cost; HARDEN= and HARDEN_LINK= build without.
+HARDEN      ?= $(if $(SANITIZE),,-fstack-protector-strong -D_FORTIFY_SOURCE=2) -fPIE
+HARDEN_LINK ?= -pie -Wl,-z,relro,-z,now
+ALL_FLAGS = -std=c11 -D_GNU_SOURCE -fopenmp $(WARNINGS) $(CFLAGS) $(HARDEN) -Isolver -Ipre -Ipost -MMD -MP \
             $(shell pkg-config --cflags hdf5 libfyaml udunits 2>/dev/null)
 # CGAL stands in one file (pre/cgal_surface.cpp), which takes half a minute to compile.
-CXX_FLAGS = -std=c++17 -Wall -Wextra $(CFLAGS) -Ipre -MMD -MP
+CXX_FLAGS = -std=c++17 -Wall -Wextra $(CFLAGS) $(HARDEN) -Ipre -MMD -MP
 CGAL_LIBS = -lstdc++ -lgmp -lmpfr
-LIBS      = $(shell pkg-config --libs hdf5 libfyaml 2>/dev/null) -ludunits2 -lmuparser -lm
+LIBS      = $(HARDEN_LINK) $(shell pkg-config --libs hdf5 libfyaml 2>/dev/null) -ludunits2 -lmuparser -lm
 
 # What Debian must provide to build and run, and to test.
 PACKAGES := pkg-config libhdf5-dev libfyaml-dev libudunits2-dev libmuparser-dev libgmsh-dev \
@@ -72,7 +80,8 @@ KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 $(foreach k,$(kernels),$(eval KERNEL_$(k)_mixed := $(KERNEL_$(k)) -DKR_FLOAT))
 
-.PHONY: FORCE all help demo study test oracle bench deps corrections pores-500 equilibrium free-grid bar soak validate $(cases) \
+.PHONY: FORCE all help demo study test fuzz oracle bench deps corrections pores-500 equilibrium free-grid lloyd-solid \
+        bar soak validate $(cases) \
         docs format install clean check-deps sbom
 all: check-deps $(programs) $(scripts)
 
@@ -118,7 +127,7 @@ $(BUILD)/%.py: pre/%.py
 $(BUILD)/solver/kernel_%.o: solver/kernel.c
 	@mkdir -p $(@D)
 	@echo "  cc    $< ($*)"
-	$(Q)$(CC) $(ALL_FLAGS) -O3 $(KERNEL_$*) -ffp-contract=fast -DKR_KERNEL=kr_kernel_$* -DKR_KERNEL_NAME='"$*"' -c $< -o $@
+	$(Q)$(CC) $(ALL_FLAGS) $(KERNEL_FLAGS) $(KERNEL_$*) -ffp-contract=fast -DKR_KERNEL=kr_kernel_$* -DKR_KERNEL_NAME='"$*"' -c $< -o $@
 
 define program_rule
 $(BUILD)/$(basename $(notdir $(1))): $(BUILD)/$(basename $(1)).o $(BUILD)/libkirsch.a
@@ -132,9 +141,17 @@ $(BUILD)/tests/%: tests/%.c tests/test.h $(BUILD)/libkirsch.a
 	@echo "  test  $<"
 	$(Q)$(CC) $(ALL_FLAGS) -Itests $< $(BUILD)/libkirsch.a $(LIBS) -lmetis -lcmocka -Wl,--as-needed $(CGAL_LIBS) -o $@
 
+# What the fuzzer starts, built by its compiler into a folder of its own (make fuzz).
+$(BUILD)/feed: tests/fuzz/feed.c tests/readers.h $(BUILD)/libkirsch.a
+	$(Q)$(CC) $(ALL_FLAGS) -Itests $< $(BUILD)/libkirsch.a $(LIBS) -Wl,--wrap=exit -o $@
+
 $(BUILD)/fields: $(BUILD)/cases/pores-500/fields.o $(BUILD)/libkirsch.a
 	@echo "  link  $(@F)"
 	$(Q)$(CC) $(CFLAGS) -fopenmp $^ $(LIBS) -o $@
+
+$(BUILD)/lloyd: $(BUILD)/cases/lloyd-solid/lloyd.o $(BUILD)/libkirsch.a
+	@echo "  link  $(@F)"
+	$(Q)$(CC) $(CFLAGS) -fopenmp $^ $(LIBS) -Wl,--as-needed $(CGAL_LIBS) -o $@
 
 $(BUILD)/corrections: $(BUILD)/cases/corrections/corrections.o $(BUILD)/libkirsch.a
 	@echo "  link  $(@F)"
@@ -169,6 +186,13 @@ test: deps
 	@$(MAKE) --no-print-directory all $(tests)
 	@BUILD=$(BUILD) ONLY='$(ONLY)' tests/run
 
+fuzz: deps
+	@tests/deps install afl++ clang libomp-dev
+	@$(MAKE) --no-print-directory all
+	@AFL_QUIET=1 $(MAKE) --no-print-directory BUILD=$(BUILD)/fuzz CC=afl-clang-fast kernels=baseline \
+	    HARDEN= KERNEL_FLAGS='-O0 -fno-sanitize=all' CFLAGS='-g -O1 -fsanitize=address,undefined -fno-omit-frame-pointer' $(BUILD)/fuzz/feed
+	@BUILD=$(BUILD) tests/fuzz/run
+
 bench: deps
 	@$(MAKE) --no-print-directory all
 	@tests/deps install lammps
@@ -198,6 +222,9 @@ equilibrium: all $(BUILD)/plain
 
 free-grid: all
 	@BUILD=$(BUILD) cases/free-grid/table
+
+lloyd-solid: all $(BUILD)/lloyd
+	@$(BUILD)/lloyd $(BUILD)/kirsch-gmsh
 
 $(cases): all
 	@tests/deps install $(CASES_PACKAGES)
@@ -230,4 +257,4 @@ clean:
 	rm -rf $(BUILD)
 
 -include $(library_o:.o=.d) $(kernel_o:.o=.d) $(patsubst %.c,$(BUILD)/%.d,$(programs_c)) $(tests:=.d) \
-         $(BUILD)/cases/corrections/corrections.d $(BUILD)/cases/pores-500/fields.d $(BUILD)/cases/bar/bar.d
+         $(BUILD)/cases/corrections/corrections.d $(BUILD)/cases/pores-500/fields.d $(BUILD)/cases/bar/bar.d $(BUILD)/cases/lloyd-solid/lloyd.d

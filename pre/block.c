@@ -12,6 +12,7 @@
 #include "cell.h"
 #include "cut_cells.h"
 #include "extrude.h"
+#include "outline.h"
 
 #include <math.h>
 #include <string.h>
@@ -52,22 +53,33 @@ static double enclosed(const struct kr_mesh *mesh) {
     return (six + lost) / 6;
 }
 
-/** Largest distance of a face's corners and middle from the surface that it stands for. */
+/** Largest distance of a face's corners and middle from a surface, in spacings. */
+static double face_off(const struct kr_mesh *mesh, const struct kr_cutter *cutter, double dx, size_t face) {
+    size_t from = mesh->face_first[face], n = mesh->face_first[face + 1] - from;
+    double middle[3] = {0}, most = 0;
+    for (size_t v = 0; v < n; v++) {
+        double corner[3];
+        for (int d = 0; d < 3; d++) {
+            corner[d] = mesh->point[3 * mesh->face[from + v] + (size_t)d] / dx;
+            middle[d] += corner[d] / (double)n;
+        }
+        most = fmax(most, fabs(kr_cutter_at(cutter, corner, NULL)));
+    }
+    return fmax(most, fabs(kr_cutter_at(cutter, middle, NULL)));
+}
+
+/** The same of all faces that stand for the surface. */
 static double conformity_of(const struct kr_mesh *mesh, const struct kr_block_body *body) {
     double most = 0, dx = body->spacing;
     for (size_t c = 0; c < body->n_cutters; c++) {
         const struct kr_cutter *cutter = &body->cutter[c];
-        const struct kr_mesh_group *group = NULL;
-        if (cutter->kind != KR_CUTTER_PLATE)
-            group = kr_mesh_group(mesh, body->group[cutter->group], 2);
-        for (size_t k = 0; group && k < group->count; k++) {
-            size_t from = mesh->face_first[group->member[k]];
-            size_t n = mesh->face_first[group->member[k] + 1] - from;
-            double middle[3] = {0};
-            for (size_t v = 0; v < n; v++)
-                for (int d = 0; d < 3; d++)
-                    middle[d] += mesh->point[3 * mesh->face[from + v] + (size_t)d] / dx / (double)n;
-            most = fmax(most, fabs(kr_cutter_at(cutter, middle, NULL)));
+        int is_plate = cutter->kind == KR_CUTTER_PLATE; /* its curves have groups of their own */
+        size_t from = is_plate ? KR_OUTLINE_SIDES : (size_t)cutter->group;
+        size_t to = is_plate ? body->flat.n_groups : from + 1;
+        for (size_t g = from; g < to; g++) {
+            const struct kr_mesh_group *group = kr_mesh_group(mesh, body->group[g], 2);
+            for (size_t k = 0; group && k < group->count; k++)
+                most = fmax(most, face_off(mesh, cutter, dx, group->member[k]));
         }
     }
     return most * dx;
