@@ -13,12 +13,12 @@
 
 double *kr_bonds_padded(size_t n) {
     size_t whole = (n + KR_LANES - 1) / KR_LANES * KR_LANES;
-    return KR_NEW(double, whole + 2 * KR_LANES) + KR_LANES;
+    return KR_NEW(double, whole + 2 * KR_PAIR) + KR_PAIR;
 }
 
 void kr_bonds_padded_free(double *array) {
     if (array)
-        kr_free(array - KR_LANES);
+        kr_free(array - KR_PAIR);
 }
 
 void kr_bonds_free(struct kr_bonds *b) {

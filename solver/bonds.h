@@ -35,7 +35,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { KR_LANES = 8 };
+enum { KR_LANES = 8, KR_PAIR = 2 * KR_LANES };
 
 /** What the fast loop wants of a kind of lattice bonds. A conical micromodulus' share is in `pull`. */
 struct kr_bond_geometry {
@@ -117,7 +117,7 @@ struct kr_bonds *kr_bonds_create(const struct kr_nodes *nodes, const struct kr_m
                                  int partial_volume);
 void kr_bonds_free(struct kr_bonds *bonds);
 
-/** An array of n doubles with room for a whole slice before and behind, all zero, so that rows may
+/** An array of n doubles with room for a pair of slices before and behind, all zero, so that rows may
  *  load past both ends. Free with kr_bonds_padded_free. */
 double *kr_bonds_padded(size_t n);
 void kr_bonds_padded_free(double *array);

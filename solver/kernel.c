@@ -35,15 +35,14 @@
 /* A batch is COUNT vectors that go through the arithmetic together: one chain of dependent operations
  * leaves the processor idle. It holds a pair of slices, or two rows of one, or a part of a row. */
 enum {
-    PAIR = 2 * KR_LANES,
-    COUNT = 2 * (int)WIDTH > PAIR ? 1 : 2,
+    COUNT = 2 * (int)WIDTH > (int)KR_PAIR ? 1 : 2,
     BATCH = COUNT * WIDTH,
     ROWS = BATCH > KR_LANES ? BATCH / KR_LANES : 1, /* of a slice, in a batch */
     NODES = BATCH / ROWS,                           /* of a slice, in a batch */
 };
 
 /* Nodes, and lengths, to fetch ahead. */
-enum { NODES_AHEAD = 2 * PAIR, LENGTHS_AHEAD = 512 };
+enum { NODES_AHEAD = 2 * KR_PAIR, LENGTHS_AHEAD = 512 };
 
 /* What a loop sums. */
 enum what { FORCE, ENERGY, PRODUCT };
@@ -234,18 +233,18 @@ INLINE void fetch_nodes(const struct kr_kernel_work *work, struct shape shape, s
         __builtin_prefetch(work->rounded->high[d] + far);
         __builtin_prefetch(work->rounded->low[d] + far);
 #else
-        for (size_t k = 0; k < PAIR; k += LINE / sizeof(double))
+        for (size_t k = 0; k < KR_PAIR; k += LINE / sizeof(double))
             __builtin_prefetch(work->u[d] + far + k);
 #endif
     }
 #ifdef KR_FLOAT
     __builtin_prefetch(work->rounded->factor + far);
 #else
-    for (size_t k = 0; k < PAIR; k += LINE / sizeof(double))
+    for (size_t k = 0; k < KR_PAIR; k += LINE / sizeof(double))
         __builtin_prefetch(work->bonds->factor + far + k);
 #endif
     for (int d = 0; d < results(shape); d++)
-        for (size_t k = 0; k < PAIR; k += LINE / sizeof(double))
+        for (size_t k = 0; k < KR_PAIR; k += LINE / sizeof(double))
             __builtin_prefetch(to[d] + ahead + k, 1);
 }
 
@@ -255,9 +254,9 @@ INLINE void do_pair(const struct kr_kernel_work *work, struct shape shape, size_
     const size_t list = b->list[slice], count = b->first[slice + 1] - b->first[slice];
     const uint8_t *low = b->living + b->first[slice], *high = b->living + b->first[slice + 1];
     double *const *to = results_of(work, shape);
-    integer left[PAIR / KR_LANES] = {0};
+    integer left[KR_PAIR / KR_LANES] = {0};
     fetch_nodes(work, shape, slice * KR_LANES, b->offset[list + count - 1]);
-    for (size_t part = 0; part < PAIR; part += BATCH) {
+    for (size_t part = 0; part < KR_PAIR; part += BATCH) {
         struct lanes l[COUNT];
         for (size_t p = 0; p < COUNT; p++)
             l[p] = begin_lanes(work, shape, (struct place){slice * KR_LANES + part + p * WIDTH, 0});
@@ -278,7 +277,7 @@ INLINE void do_pair(const struct kr_kernel_work *work, struct shape shape, size_
                 left[(part + (size_t)(p * WIDTH + k)) / KR_LANES] |= l[p].left[k];
         }
     }
-    for (int k = 0; k < PAIR / KR_LANES; k++)
+    for (int k = 0; k < KR_PAIR / KR_LANES; k++)
         work->flag[slice + (size_t)k] = has_left(left[k]);
 }
 
