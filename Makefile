@@ -4,6 +4,7 @@
 #   make demo       a crack runs through a porous plate; ends with pictures (FULL=1: the paper's size)
 #   make study      run the example study of random pores; goes on where it was interrupted
 #   make test       all tests (ONLY=word: those whose name contains the word)
+#   make fuzz       damaged files for every reader, under AFL++ (FUZZ_SECONDS= each, KINDS=)
 #   make bench      measure the speed; writes build/bench.csv
 #   make bench-growth  the speed by nodes, m and threads, and what mixed precision changes
 #   make deps       list what the system lacks and install it (Debian; sudo where not root)
@@ -13,8 +14,12 @@
 #   make bar        a bar of cubes, pulled, with each surface correction
 #   make cases/NAME run a case that is compared with something known (FULL=1: the published size)
 #   make validate   run all of them, small; writes build/validation.csv
+#   make oracle     what development checks against PETSc and VTK, where they are installed
 #   make equilibrium  measure the static solver at three sizes, up to 780 000 nodes
 #   make free-grid  measure the free grid at three sizes (the table in docs/grids.md)
+#   make bench-read time the reader of gmsh's meshes
+#   make node-order  time the loop over bonds with nodes in rows, by METIS, along curves, ...
+#   make lloyd-solid  measure what Lloyd's steps would gain in space (a table in docs/grids.md)
 #   make soak       leave a run alone for two hours (HOURS=), and ask what became of it
 #   make docs       write docs/deck.md anew from the table that reads the deck
 #   make format     clang-format the sources
@@ -36,15 +41,21 @@ Q        := $(if $(V),,@)
 WARNINGS := -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes -Wmissing-prototypes \
             -Wno-missing-field-initializers
 VERSION  := $(shell git describe --always --dirty --tags 2>/dev/null || echo unknown)
+# The bond loop is worth -O3, but not the minutes that the sanitizers make of it.
+KERNEL_FLAGS = $(if $(SANITIZE),-O1,-O3)
 ifdef SANITIZE
 CFLAGS   += -fsanitize=address,undefined -fno-omit-frame-pointer
 endif
-ALL_FLAGS = -std=c11 -D_GNU_SOURCE -fopenmp $(WARNINGS) $(CFLAGS) -Isolver -Ipre -Ipost -MMD -MP \
+# What makes a fault hard to use: canaries, checked copies, addresses that move, tables that are read-only.
+# docs/reliability.md has the cost; HARDEN= and HARDEN_LINK= build without.
+HARDEN      ?= $(if $(SANITIZE),,-fstack-protector-strong -D_FORTIFY_SOURCE=2) -fPIE
+HARDEN_LINK ?= -pie -Wl,-z,relro,-z,now
+ALL_FLAGS = -std=c11 -D_GNU_SOURCE -fopenmp $(WARNINGS) $(CFLAGS) $(HARDEN) -Isolver -Ipre -Ipost -MMD -MP \
             $(shell pkg-config --cflags hdf5 libfyaml udunits 2>/dev/null)
 # CGAL stands in one file (pre/cgal_surface.cpp), which takes half a minute to compile.
-CXX_FLAGS = -std=c++17 -Wall -Wextra $(CFLAGS) -Ipre -MMD -MP
+CXX_FLAGS = -std=c++17 -Wall -Wextra $(CFLAGS) $(HARDEN) -Ipre -MMD -MP
 CGAL_LIBS = -lstdc++ -lgmp -lmpfr
-LIBS      = $(shell pkg-config --libs hdf5 libfyaml 2>/dev/null) -ludunits2 -lmuparser -lm
+LIBS      = $(HARDEN_LINK) $(shell pkg-config --libs hdf5 libfyaml 2>/dev/null) -ludunits2 -lmuparser -lm
 
 # What Debian must provide to build and run, and to test.
 PACKAGES := pkg-config libhdf5-dev libfyaml-dev libudunits2-dev libmuparser-dev libgmsh-dev \
@@ -72,7 +83,8 @@ KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 $(foreach k,$(kernels),$(eval KERNEL_$(k)_mixed := $(KERNEL_$(k)) -DKR_FLOAT))
 
-.PHONY: FORCE all help demo study test bench bench-growth deps corrections pores-500 equilibrium free-grid bar soak validate $(cases) \
+.PHONY: FORCE all help demo study test fuzz oracle bench bench-growth bench-read node-order deps corrections pores-500 equilibrium \
+        free-grid lloyd-solid bar soak validate $(cases) \
         docs format install clean check-deps sbom
 all: check-deps $(programs) $(scripts)
 
@@ -118,7 +130,7 @@ $(BUILD)/%.py: pre/%.py
 $(BUILD)/solver/kernel_%.o: solver/kernel.c
 	@mkdir -p $(@D)
 	@echo "  cc    $< ($*)"
-	$(Q)$(CC) $(ALL_FLAGS) -O3 $(KERNEL_$*) -ffp-contract=fast -DKR_KERNEL=kr_kernel_$* -DKR_KERNEL_NAME='"$*"' -c $< -o $@
+	$(Q)$(CC) $(ALL_FLAGS) $(KERNEL_FLAGS) $(KERNEL_$*) -ffp-contract=fast -DKR_KERNEL=kr_kernel_$* -DKR_KERNEL_NAME='"$*"' -c $< -o $@
 
 define program_rule
 $(BUILD)/$(basename $(notdir $(1))): $(BUILD)/$(basename $(1)).o $(BUILD)/libkirsch.a
@@ -132,17 +144,45 @@ $(BUILD)/tests/%: tests/%.c tests/test.h $(BUILD)/libkirsch.a
 	@echo "  test  $<"
 	$(Q)$(CC) $(ALL_FLAGS) -Itests $< $(BUILD)/libkirsch.a $(LIBS) -lmetis -lcmocka -Wl,--as-needed $(CGAL_LIBS) -o $@
 
+# What the fuzzer starts, built by its compiler into a folder of its own (make fuzz).
+$(BUILD)/feed: tests/fuzz/feed.c tests/readers.h $(BUILD)/libkirsch.a
+	$(Q)$(CC) $(ALL_FLAGS) -Itests $< $(BUILD)/libkirsch.a $(LIBS) -Wl,--wrap=exit -o $@
+
 $(BUILD)/fields: $(BUILD)/cases/pores-500/fields.o $(BUILD)/libkirsch.a
 	@echo "  link  $(@F)"
 	$(Q)$(CC) $(CFLAGS) -fopenmp $^ $(LIBS) -o $@
 
+$(BUILD)/lloyd: $(BUILD)/cases/lloyd-solid/lloyd.o $(BUILD)/libkirsch.a
+	@echo "  link  $(@F)"
+	$(Q)$(CC) $(CFLAGS) -fopenmp $^ $(LIBS) -Wl,--as-needed $(CGAL_LIBS) -o $@
+
 $(BUILD)/corrections: $(BUILD)/cases/corrections/corrections.o $(BUILD)/libkirsch.a
+	@echo "  link  $(@F)"
+	$(Q)$(CC) $(CFLAGS) -fopenmp $^ $(LIBS) -o $@
+
+$(BUILD)/read: $(BUILD)/cases/bench/read.o $(BUILD)/libkirsch.a
+	@echo "  link  $(@F)"
+	$(Q)$(CC) $(CFLAGS) -fopenmp $^ $(LIBS) -o $@
+
+$(BUILD)/order: $(BUILD)/cases/node-order/order.o $(BUILD)/libkirsch.a
 	@echo "  link  $(@F)"
 	$(Q)$(CC) $(CFLAGS) -fopenmp $^ $(LIBS) -o $@
 
 $(BUILD)/bar: $(BUILD)/cases/bar/bar.o $(BUILD)/libkirsch.a
 	@echo "  link  $(@F)"
 	$(Q)$(CC) $(CFLAGS) -fopenmp $^ $(LIBS) -o $@
+
+$(BUILD)/plain: $(BUILD)/cases/equilibrium/plain.o $(BUILD)/libkirsch.a
+	@echo "  link  $(@F)"
+	$(Q)$(CC) $(CFLAGS) -fopenmp $^ $(LIBS) -o $@
+
+# Against PETSc, which brings an MPI of its own: a program of its own, no part of the tests.
+ORACLE_FLAGS = $(filter-out -D%,$(subst -I,-isystem ,$(shell pkg-config --cflags petsc)))
+$(BUILD)/tests/oracle/petsc: tests/oracle/petsc.c tests/test.h $(BUILD)/libkirsch.a
+	@mkdir -p $(@D)
+	@echo "  test  $<"
+	$(Q)$(CC) $(ALL_FLAGS) -Itests $(ORACLE_FLAGS) $< $(BUILD)/libkirsch.a $(LIBS) \
+	    $(shell pkg-config --libs petsc) -lcmocka -o $@
 
 # ---- running --------------------------------------------------------------------------------
 demo: deps
@@ -157,6 +197,13 @@ test: deps
 	@$(MAKE) --no-print-directory all $(tests)
 	@BUILD=$(BUILD) ONLY='$(ONLY)' tests/run
 
+fuzz: deps
+	@tests/deps install afl++ clang libomp-dev
+	@$(MAKE) --no-print-directory all
+	@AFL_QUIET=1 $(MAKE) --no-print-directory BUILD=$(BUILD)/fuzz CC=afl-clang-fast kernels=baseline \
+	    HARDEN= KERNEL_FLAGS='-O0 -fno-sanitize=all' CFLAGS='-g -O1 -fsanitize=address,undefined -fno-omit-frame-pointer' $(BUILD)/fuzz/feed
+	@BUILD=$(BUILD) tests/fuzz/run
+
 bench: deps
 	@$(MAKE) --no-print-directory all
 	@tests/deps install lammps
@@ -168,6 +215,14 @@ bench-growth: all
 	@$(BUILD)/kirsch-bench --growth
 	@BUILD=$(BUILD) cases/bench/precision
 
+oracle: all
+	@if pkg-config --exists petsc; then \
+	    $(MAKE) --no-print-directory $(BUILD)/tests/oracle/petsc && \
+	    OMP_WAIT_POLICY=passive $(BUILD)/tests/oracle/petsc; \
+	else echo "skipped: PETSc is not here (Debian: libpetsc-real-dev)"; fi
+	@if /usr/bin/python3 -c 'import vtkmodules' 2>/dev/null; then BUILD=$(BUILD) tests/oracle/closed; \
+	else echo "skipped: VTK for Python is not here (Debian: python3-vtk9)"; fi
+
 corrections: all $(BUILD)/corrections
 	@BUILD=$(BUILD) cases/corrections/table
 
@@ -177,11 +232,20 @@ pores-500: all $(BUILD)/fields
 bar: all $(BUILD)/bar
 	@BUILD=$(BUILD) cases/bar/table
 
-equilibrium: all
+bench-read: all $(BUILD)/read
+	@BUILD=$(BUILD) cases/bench/meshes
+
+node-order: all $(BUILD)/order
+	@BUILD=$(BUILD) cases/node-order/table
+
+equilibrium: all $(BUILD)/plain
 	@BUILD=$(BUILD) cases/equilibrium/table
 
 free-grid: all
 	@BUILD=$(BUILD) cases/free-grid/table
+
+lloyd-solid: all $(BUILD)/lloyd
+	@$(BUILD)/lloyd $(BUILD)/kirsch-gmsh
 
 $(cases): all
 	@tests/deps install $(CASES_PACKAGES)
@@ -214,4 +278,5 @@ clean:
 	rm -rf $(BUILD)
 
 -include $(library_o:.o=.d) $(kernel_o:.o=.d) $(patsubst %.c,$(BUILD)/%.d,$(programs_c)) $(tests:=.d) \
+         $(BUILD)/cases/node-order/order.d $(BUILD)/cases/bench/read.d $(BUILD)/cases/lloyd-solid/lloyd.d \
          $(BUILD)/cases/corrections/corrections.d $(BUILD)/cases/pores-500/fields.d $(BUILD)/cases/bar/bar.d

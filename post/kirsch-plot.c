@@ -4,6 +4,7 @@
  * draws; the script lies beside this program or in the folder of the installation.
  */
 #include <errno.h>
+#include <math.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -23,7 +24,9 @@ static const char usage[] = "kirsch-plot case.yaml [PICTURE]...\n"
                             "\n"
                             "kirsch-plot compare FOLDER FOLDER   two runs and their difference\n"
                             "\n"
-                            "  --field NAME       any field of the outputs, as Displacement";
+                            "  --field NAME       any field of the outputs, as Displacement\n"
+                            "  grid --hole N      the grid around hole N; --void N of a solid\n"
+                            "  grid --slice 'z=2 mm'   of a solid, in this plane across x, y or z";
 
 /** Replace this program: plot.py compare FOLDER FOLDER; it needs no deck. */
 static void compare(int argc, char **argv) {
@@ -36,11 +39,27 @@ static void compare(int argc, char **argv) {
     kr_stop(KR_EXIT_LIBRARY, "cannot start " PYTHON ": %s", strerror(errno));
 }
 
-/** Replace this program: plot.py FOLDER PICTURE... --hole x,y,radius...   (in m) */
+/** Radius [m] of a ball around a void; 0 where only its file knows. */
+static double void_reach(const struct kr_case_void *hollow) {
+    switch ((enum kr_void_shape)hollow->shape) {
+    case KR_VOID_SPHERE:
+        return hollow->radius;
+    case KR_VOID_ELLIPSOID:
+        return fmax(fmax(hollow->radii[0], hollow->radii[1]), hollow->radii[2]);
+    case KR_VOID_CYLINDER:
+        return hypot(hollow->radius, hollow->length / 2);
+    case KR_VOID_STL:
+        break;
+    }
+    return 0;
+}
+
+/** Replace this program: plot.py FOLDER PICTURE... --disc x,y,radius... --ball x,y,z,radius... (in m) */
 static void hand_over(const struct kr_case *c, const struct kr_case_arguments *arguments) {
-    size_t n_holes, n = 0;
+    size_t n_holes, n_voids, n = 0;
     struct kr_case_hole *hole = kr_case_holes(c, &n_holes);
-    char **word = KR_NEW(char *, 6 + arguments->n_left + 2 * n_holes);
+    struct kr_case_void *hollow = kr_case_voids(c, &n_voids);
+    char **word = KR_NEW(char *, 6 + arguments->n_left + 2 * (n_holes + n_voids));
     word[n++] = PYTHON;
     word[n++] = "-B"; /* leaves no compiled files in the installation */
     word[n++] = kr_child_script("plot.py");
@@ -49,8 +68,14 @@ static void hand_over(const struct kr_case *c, const struct kr_case_arguments *a
         word[n++] = (char *)arguments->left[k];
     for (size_t k = 0; k < n_holes; k++) {
         double centre[2], radius = kr_case_hole_reach(&hole[k], centre);
-        word[n++] = "--hole";
+        word[n++] = "--disc";
         word[n++] = kr_text("%.17g,%.17g,%.17g", centre[0], centre[1], radius);
+    }
+    for (size_t k = 0; k < n_voids; k++) {
+        const double *centre = hollow[k].centre;
+        word[n++] = "--ball";
+        word[n++] = kr_text("%.17g,%.17g,%.17g,%.17g", centre[0], centre[1], centre[2],
+                            void_reach(&hollow[k]));
     }
     execv(PYTHON, word);
     kr_stop(KR_EXIT_LIBRARY,

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Maps: the grid near a hole, damage and strain energy density at several times."""
+"""Maps: damage, strain energy density and any other field at several times."""
 import numpy as np
-from matplotlib.collections import PolyCollection
 from matplotlib.patches import Circle
 
 from raster import raster
@@ -169,34 +168,3 @@ def any_field(name):
         figure = four_maps(case, name, ENERGY, label, energy_limit, factor)
         return save(case, figure, name.lower())
     return picture
-
-
-# ---- the grid ----------------------------------------------------------------------------------
-
-def close_up(case):
-    """Lower and upper corner [mm]: about 3 radii wide around the hole nearest to the plate's
-    middle, or 40 spacings around the middle where there is no hole."""
-    lower, upper = case.box()
-    middle, half = (lower + upper) / 2, 20 * case.cells()[4]
-    if case.holes:
-        hole = min(case.holes, key=lambda h: np.hypot(h[0] - middle[0], h[1] - middle[1]))
-        middle, half = np.array(hole[:2]), 1.6 * hole[2]
-    return middle - half, middle + half
-
-
-def grid(case):
-    point, first, vertex, area, spacing = case.cells()
-    low, high = close_up(case)
-    centre = point[vertex[first[:-1]]]
-    seen = np.flatnonzero(((centre > low - 2 * spacing) & (centre < high + 2 * spacing)).all(axis=1))
-    figure, axes = plt.subplots(figsize=(4.6, 3.9), constrained_layout=True)
-    cells = PolyCollection([point[vertex[first[k]:first[k + 1]]] for k in seen],
-                           array=area[seen] / spacing**2, cmap="YlGnBu", edgecolor="0.25",
-                           linewidth=0.25)
-    cells.set_clim(0, max(1.5, np.percentile(area[seen] / spacing**2, 99.5)))
-    axes.add_collection(cells)
-    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), xlabel="x (mm)", ylabel="y (mm)",
-             aspect="equal")
-    axes.set_title("%d cells, %d shown; spacing %.4g mm" % (len(area), len(seen), spacing))
-    figure.colorbar(cells, ax=axes, label="area of a cell / spacing²", shrink=0.9)
-    return save(case, figure, "grid")

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of a case: plot.py FOLDER [PICTURE...] [--hole X,Y,RADIUS]...   (metres)
+"""Pictures of a case: plot.py FOLDER [PICTURE...] [--disc X,Y,RADIUS]... [--ball X,Y,Z,RADIUS]...
+(metres: the case's holes and voids in their order) [--hole N] [--void N] [--slice 'z=2 mm']
 
 Started by kirsch-plot. It draws and computes nothing mechanical. A picture whose files are missing
 is told and left out; the others are drawn all the same.
@@ -11,6 +12,7 @@ import sys
 try:
     from results import Case, Fault, Nothing, warn
     import curves
+    import grid
     import maps
     import movie
     import study
@@ -22,7 +24,7 @@ except ImportError as missing:
     sys.exit(5)
 
 PICTURES = {
-    "grid": maps.grid,
+    "grid": grid.grid,
     "damage": maps.damage,
     "energy": maps.energy,
     "speed": curves.speed,
@@ -34,13 +36,15 @@ PICTURES = {
 
 
 def arguments(words):
-    """Folder, names of pictures, holes."""
-    folder, names, holes = None, [], []
+    """Folder, names of pictures, holes, voids, and what of the grid is asked for."""
+    folder, names, round_ones, wanted = None, [], {"--disc": [], "--ball": []}, {}
     words = list(words)
     while words:
         word = words.pop(0)
-        if word == "--hole" and words:
-            holes.append(tuple(float(x) for x in words.pop(0).split(",")))
+        if word in round_ones and words:
+            round_ones[word].append(tuple(float(x) for x in words.pop(0).split(",")))
+        elif word in ("--hole", "--void", "--slice") and words:
+            wanted["cut" if word == "--slice" else word[2:]] = words.pop(0)
         elif word == "--field" and words:
             name = words.pop(0)
             names.append(name)
@@ -53,7 +57,9 @@ def arguments(words):
             raise Fault("unknown picture `%s`; there are %s" % (word, ", ".join(PICTURES)))
     if folder is None:
         raise Fault("the folder of the case is missing")
-    return folder, names or list(PICTURES), holes
+    if wanted and not names:
+        names = ["grid"]
+    return folder, names or list(PICTURES), round_ones["--disc"], round_ones["--ball"], wanted
 
 
 def draw_all(case, names):
@@ -83,8 +89,10 @@ def main():
         if sys.argv[1:2] == ["compare"]:
             compare.draw(*sys.argv[2:])
             return
-        folder, names, holes = arguments(sys.argv[1:])
-        if not draw_all(Case(folder, holes), names):
+        folder, names, holes, voids, wanted = arguments(sys.argv[1:])
+        case = Case(folder, holes, voids)
+        PICTURES["grid"] = lambda case: grid.grid(case, grid.Choice(case, **wanted))
+        if not draw_all(case, names):
             sys.exit(2)
     except Fault as fault:
         print("kirsch-plot: %s" % fault, file=sys.stderr)

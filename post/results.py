@@ -61,9 +61,10 @@ class Case:
     """A case's folder. Lengths are in mm for the pictures, times in us; files are opened when a
     picture asks for them."""
 
-    def __init__(self, folder, holes):
+    def __init__(self, folder, holes, voids=()):
         self.folder = folder
         self.holes = [tuple(1e3 * x for x in hole) for hole in holes]
+        self.voids = [tuple(1e3 * x for x in void) for void in voids]
         self.summary = read_summary(self.path("summary.csv"))
         self.rasters = {}  # of the whole plate, by their width in pixels
         self._cells = self._run = None

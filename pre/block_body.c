@@ -18,12 +18,21 @@ static void add_group(struct kr_block_body *body, char *name) {
     body->group[body->n_groups++] = name;
 }
 
+/** Whether any edge of the plate is called so: a disc has no left side. */
+static int has_group(const struct kr_plate_body *flat, int group) {
+    for (size_t c = 0; c < flat->exact.n_curves; c++)
+        for (size_t k = 0; k < flat->exact.curve[c].n; k++)
+            if (flat->exact.curve[c].piece[k].group == group)
+                return 1;
+    return 0;
+}
+
 static void name_groups(struct kr_block_body *body, const struct kr_block *block) {
     const struct kr_plate_body *flat = &body->flat;
     for (size_t g = 0; g < flat->n_groups; g++)
         add_group(body, kr_text_copy(flat->group[g]));
     for (int d = 0; d < 4; d++)
-        body->side[d] = d;
+        body->side[d] = has_group(flat, d) || flat->first_hole == KR_OUTLINE_SIDES ? d : KR_OUTLINE_SIDES;
     body->side[4] = (int)body->n_groups;
     body->side[5] = (int)body->n_groups + 1;
     add_group(body, kr_text_copy("front"));

@@ -4,7 +4,7 @@
  * counterpart of gmsh.h. Nothing that a child says is believed.
  *
  * A request, lengths in spacings:
- *    solid algorithm 1 size 1.6 shells S
+ *    solid algorithm 1 optimize 1 size 1.6 shells S
  *    shell points N triangles M, N lines x y z, M lines of three places among them: the outer shell
  *                                first; seen from outside the region counter-clockwise
  * The reply:
@@ -31,8 +31,9 @@ struct kr_solid_region {
     double seconds;
 };
 
-/** Fill regions, several at once; the result of each depends on its own request only. A region whose
- *  attempts fail keeps `cell` and `point` as they were, and a warning says why. */
+/** Fill regions, several at once; the result of each depends on its own request only. Where an
+ *  attempt fails, a warning says why and the next method is tried; where all have failed, the region
+ *  keeps `cell` and `point` as they were: its own tetrahedra are sound, if coarser. */
 void kr_solid_fill(size_t n_regions, struct kr_solid_region *region,
                    const struct kr_gmsh_options *options);
 

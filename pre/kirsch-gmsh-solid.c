@@ -6,45 +6,19 @@
  * Request (standard input) and reply (standard output) are text and documented in fill_solid.h; what
  * gmsh says goes to standard error. The shells are discrete surfaces: gmsh keeps their triangles.
  */
-#include <gmshc.h>
+#include "called.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
 
-static int trouble;
-
-_Noreturn static void fail(const char *sentence) {
-    fprintf(stderr, "Error   : %s\n", sentence);
-    exit(1);
-}
-
-static void called(const char *what) {
-    if (trouble) {
-        fprintf(stderr, "Error   : %s ended with %d\n", what, trouble);
-        exit(1);
-    }
-}
-
-static void *room(size_t count, size_t size) {
-    void *array = calloc(count ? count : 1, size);
-    if (!array)
-        fail("no memory");
-    return array;
-}
-
-static void set(const char *option, double value) {
-    gmshOptionSetNumber(option, value, &trouble);
-    called(option);
-}
-
-static void set_options(int algorithm, double size) {
+static void set_options(int algorithm, int optimize, double size) {
     set("General.Terminal", 1);
     set("General.Verbosity", 2);
     set("General.NumThreads", 1);
     set("General.AbortOnError", 0);
     set("Mesh.Algorithm3D", algorithm);
-    set("Mesh.Optimize", 1);
+    set("Mesh.Optimize", optimize);
     set("Mesh.CharacteristicLengthMin", size);
     set("Mesh.CharacteristicLengthMax", size);
 }
@@ -114,9 +88,10 @@ static void write_mesh(FILE *file, size_t n_shell_points) {
 }
 
 int main(void) {
-    int algorithm, n_shells;
+    int algorithm, optimize, n_shells;
     double size;
-    if (scanf(" solid algorithm %d size %lf shells %d", &algorithm, &size, &n_shells) != 3 ||
+    if (scanf(" solid algorithm %d optimize %d size %lf shells %d", &algorithm, &optimize, &size,
+              &n_shells) != 4 ||
         n_shells < 1)
         fail("this program is run by kirsch-mesh; its request is bad");
     /* gmsh writes what it likes to standard output: the mesh leaves by another way. */
@@ -125,7 +100,7 @@ int main(void) {
         fail("no standard output");
     gmshInitialize(0, NULL, 0, &trouble);
     called("starting gmsh");
-    set_options(algorithm, size);
+    set_options(algorithm, optimize, size);
     int *loop = room((size_t)n_shells, sizeof *loop);
     size_t last_node = 0, last_triangle = 0;
     for (int k = 0; k < n_shells; k++)

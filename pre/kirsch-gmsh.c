@@ -14,7 +14,7 @@
  *
  * With `--curves FROM` it tells the curves around each plane face of such a file (cad.h).
  */
-#include <gmshc.h>
+#include "called.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -29,33 +29,6 @@ struct order {
     double size;       /* length of a side, in spacings */
     int n_loops;
 };
-
-_Noreturn static void fail(const char *sentence) {
-    fprintf(stderr, "Error   : %s\n", sentence);
-    exit(1);
-}
-
-/** Every call of gmsh goes through here: its last argument is `&trouble`. */
-static int trouble;
-
-static void called(const char *what) {
-    if (trouble) {
-        fprintf(stderr, "Error   : %s ended with %d\n", what, trouble);
-        exit(1);
-    }
-}
-
-static void *room(size_t count, size_t size) {
-    void *array = calloc(count ? count : 1, size);
-    if (!array)
-        fail("no memory");
-    return array;
-}
-
-static void set(const char *option, double value) {
-    gmshOptionSetNumber(option, value, &trouble);
-    called(option);
-}
 
 static void set_options(const struct order *order) {
     set("General.Terminal", 1);

@@ -37,12 +37,16 @@ struct repair {
     unsigned char *is_gone; /* (n_cells) */
 };
 
+static char *place_of(const struct kr_mesh *mesh, const double *at) {
+    return mesh->dim == 2 ? kr_text("(%g, %g) m", at[0], at[1])
+                          : kr_text("(%g, %g, %g) m", at[0], at[1], at[2]);
+}
+
 static void note(struct repair *r, enum kind kind, const char *item, long long tag, const double *at) {
     const struct kr_mesh *mesh = r->mesh;
     if (++r->count[kind] > SHOWN)
         return;
-    char *place = mesh->dim == 2 ? kr_text("(%g, %g) m", at[0], at[1])
-                                 : kr_text("(%g, %g, %g) m", at[0], at[1], at[2]);
+    char *place = place_of(mesh, at);
     char *more = kr_text("%s%s%s %lld at %s", r->shown[kind] ? r->shown[kind] : "",
                          r->shown[kind] ? ", " : "", item, tag, place);
     kr_free(place);
@@ -349,6 +353,19 @@ static void stop_if_broken(const struct kr_mesh *mesh, const char *path) {
                     (long long)mesh->cell_tag[c], mesh->first[c + 1] - mesh->first[c]);
 }
 
+static void stop_at_overlap(const struct kr_mesh *mesh, const char *path) {
+    size_t cell[2];
+    double common;
+    if (!(mesh->dim == 2 ? kr_mesh_overlap(mesh, cell, &common)
+                         : kr_mesh_solids_overlap(mesh, cell, &common)))
+        return;
+    const double *at = mesh->point + 3 * mesh->vertex[mesh->first[cell[0]]];
+    char *place = place_of(mesh, at);
+    kr_stop(KR_EXIT_INPUT, "%s: cells %lld and %lld overlap by %g m^%d at %s", path,
+            (long long)mesh->cell_tag[cell[0]], (long long)mesh->cell_tag[cell[1]], common,
+            mesh->dim, place);
+}
+
 static size_t report(struct repair *r, const char *path) {
     size_t total = 0;
     for (int k = 0; k < KINDS; k++) {
@@ -390,11 +407,5 @@ void kr_mesh_repair(struct kr_mesh *mesh, const char *path, int mend) {
     char *fault = kr_mesh_fault(mesh);
     if (fault)
         kr_stop(KR_EXIT_INPUT, "%s: %s", path, fault);
-    size_t cell[2];
-    double area;
-    if (mesh->dim == 2 && kr_mesh_overlap(mesh, cell, &area))
-        kr_stop(KR_EXIT_INPUT, "%s: cells %lld and %lld overlap by %g m^2 at (%g, %g) m", path,
-                (long long)mesh->cell_tag[cell[0]], (long long)mesh->cell_tag[cell[1]], area,
-                mesh->point[3 * mesh->vertex[mesh->first[cell[0]]]],
-                mesh->point[3 * mesh->vertex[mesh->first[cell[0]]] + 1]);
+    stop_at_overlap(mesh, path);
 }

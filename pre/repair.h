@@ -28,6 +28,9 @@ void kr_mesh_repair(struct kr_mesh *mesh, const char *path, int mend);
  *  such; cell[0] < cell[1], `area` [m^2] is what they share. The lowest pair, if there are several. */
 int kr_mesh_overlap(const struct kr_mesh *mesh, size_t cell[2], double *area);
 
+/** The same for solids, by their volume [m^3]. Bent faces are the fans of solid.h. */
+int kr_mesh_solids_overlap(const struct kr_mesh *mesh, size_t cell[2], double *volume);
+
 /** Area [m^2] that two simple polygons, counter-clockwise and convex or not, have in common. */
 double kr_polygons_common(size_t n, const double *a, size_t m, const double *b);
 

@@ -243,6 +243,7 @@ struct kr_surface_report kr_surface_correct(struct kr_nodes *nodes,
     whole.critical_stretch = INFINITY;
     kr_surface_clear(nodes);
     struct kr_progress begun = kr_progress_begin("surface factors", 0, 0);
+    kr_surface_say_begun(nodes);
     struct kr_bonds *bonds = kr_bonds_create(nodes, &whole, partial_volume);
     struct problem problem = {.body = kr_body_create(bonds), .diagonal = KR_NEW(double, nodes->n)};
     problem.progress = begun;
@@ -263,6 +264,11 @@ struct kr_surface_report kr_surface_correct(struct kr_nodes *nodes,
     kr_bonds_free(bonds);
     kr_free(problem.diagonal);
     return report;
+}
+
+void kr_surface_say_begun(const struct kr_nodes *nodes) {
+    if (nodes->n >= 100000)
+        kr_say("  surface factors: finding the families of %zu nodes", nodes->n);
 }
 
 void kr_surface_clear(struct kr_nodes *nodes) {

@@ -72,6 +72,9 @@ double kr_surface_full_volume(int dim, double horizon);
  *  strained along it. */
 double kr_surface_full_pull(const struct kr_material *material, int dim, int partial_volume);
 
+/** Families of many nodes take seconds: say so before they are looked for. */
+void kr_surface_say_begun(const struct kr_nodes *nodes);
+
 /** Fill in the least and largest factor. */
 void kr_surface_extremes(const struct kr_nodes *nodes, struct kr_surface_report *report);
 

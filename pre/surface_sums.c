@@ -80,6 +80,7 @@ static void set_axes(struct kr_nodes *nodes, size_t i, double reference) {
 static struct kr_bonds *plain_bonds(struct kr_nodes *nodes, const struct kr_material *material,
                                     int partial_volume) {
     kr_surface_clear(nodes);
+    kr_surface_say_begun(nodes);
     return kr_bonds_create(nodes, material, partial_volume);
 }
 

@@ -808,16 +808,35 @@ def cdb_body(nodes, elements, components, types):
     return body
 
 
+def check_fluent(path):
+    """Fluent's .msh as meshio reads it: cells by their corners. Names of zones are passed over, and
+    Fluent itself writes faces with the cells on their two sides, which meshio takes for cells."""
+    with open(path, "rb") as file:
+        text = file.read()
+    # (39 (4 wall left)()) or (45 (4 wall left)()): number, kind and name of a zone
+    names = re.findall(rb"\(\s*(?:39|45)\s*\(\s*\w+\s+\S+\s+([^\s()]+)", text)
+    kept = [n.decode(errors="replace") for n in dict.fromkeys(names)]
+    if re.search(rb"\(\s*(?:20|30)?13\s*\(\s*[1-9a-f]", text):
+        stop("the mesh is given by its faces, as Fluent writes it, and only Fluent meshes whose cells are "
+             "given by their corners are read (meshio's); write it as Abaqus, Exodus or .cdb")
+    if kept:
+        note(f"the zones {', '.join(kept[:8])} of a Fluent mesh make no sets; name sets by place in the deck")
+
+
 def read_meshio(path):
     import meshio
+
+    with open(path, "rb") as file:
+        if path.lower().endswith(".msh") and file.read(1) in (b"(", b"\n"):
+            check_fluent(path)
 
     try:
         mesh = meshio.read(path)
     except SystemExit:
         stop("meshio cannot read the file")
     body = Body(mesh.points)
-    for block in mesh.cells:
-        body.add_block(block.type, block.data)
+    for number, block in enumerate(mesh.cells):
+        body.add_block(block.type, block.data, own_tags(mesh, number))
     for name, parts in mesh.cell_sets.items():
         if name.startswith("gmsh:"):
             continue
@@ -830,6 +849,17 @@ def read_meshio(path):
     for name, parts in mesh.cell_data.items():
         data_sets(body, mesh, name, parts)
     return body
+
+
+# What kirsch-nodes --write vtu notes of a cell beside its sets.
+OWN_DATA = ("Tag", "Volume", "Surface_Correction_Factor")
+
+
+def own_tags(mesh, block):
+    """Numbers of cells in our own VTU."""
+    if not all(name in mesh.cell_data for name in OWN_DATA):
+        return None
+    return np.asarray(mesh.cell_data["Tag"][block], dtype=np.int64).ravel()
 
 
 def families(body, mesh):
@@ -845,10 +875,18 @@ def families(body, mesh):
 
 
 def data_sets(body, mesh, name, parts):
-    """Whole-numbered cell data, such as Material or gmsh:physical: a set for each value."""
+    """Whole-numbered cell data, such as Material or gmsh:physical: a set for each value; bytes of 0 and 1,
+    as in our own VTU, are one set."""
     if name == "gmsh:geometrical" or (name == "cell_tags" and getattr(mesh, "cell_tags", {})):
         return
+    if name in OWN_DATA and all(own in mesh.cell_data for own in OWN_DATA):
+        return
     values = [np.asarray(p) for p in parts]
+    values = [v[:, 0] if v.ndim == 2 and v.shape[1] == 1 else v for v in values]
+    if values and all(v.dtype.itemsize == 1 and v.ndim == 1 and v.max(initial=0) <= 1 for v in values):
+        for block, v in enumerate(values):  # 0 and 1 in a byte: in the set or not
+            body.add_cells(name, block, np.flatnonzero(v == 1))
+        return
     if any(v.ndim != 1 or not np.issubdtype(v.dtype, np.number) for v in values):
         return
     if any(np.any(v != np.round(v)) for v in values):

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
  * The uniform grid. An edge of the staircase belongs to the boundary that took the square behind
- * it; on the frame, to the side of the plate.
+ * it; on the frame, to the nearest edge of the outline: a side, or that of a disc which touches it.
  */
 #include "uniform.h"
 
@@ -34,10 +34,9 @@ static int nearest_group(const struct kr_plate_body *body, size_t i, size_t j, i
 
 /** Group of the edge over side k of a square, -1 where another square lies there. */
 static int group_over(const struct kr_plate_body *body, size_t i, size_t j, int k) {
-    static const int frame[4] = {2, 1, 3, 0}; /* bottom, right, top, left */
     size_t ni = i + (size_t)to[k][0], nj = j + (size_t)to[k][1];
     if (ni >= body->lattice.columns || nj >= body->lattice.rows) /* 0 less one is large */
-        return frame[k];
+        return nearest_group(body, i, j, k);
     int group = (int)body->holder[kr_lattice_cell(&body->lattice, ni, nj)] - 1;
     return group < 0 || group >= body->first_hole ? group : nearest_group(body, i, j, k);
 }

@@ -65,15 +65,28 @@ static void put_points(struct writer *w, const struct kr_nodes *nodes) {
     kr_free(point);
 }
 
+/** Vertices of all cells in the order of VTK. In its linear wedge the normal of the first triangle
+ *  points outwards: the mirror image of everybody else's. */
+static int64_t *vertices_of(const struct kr_nodes *nodes) {
+    static const unsigned char order[6] = {0, 2, 1, 3, 5, 4};
+    size_t n = nodes->n_points ? (size_t)nodes->first[nodes->n] : nodes->n;
+    int64_t *vertex = KR_NEW(int64_t, n);
+    for (size_t k = 0; k < n; k++)
+        vertex[k] = nodes->n_points ? nodes->vertex[k] : (int64_t)k;
+    for (size_t i = 0; nodes->n_points && nodes->dim == 3 && i < nodes->n; i++)
+        if (nodes->first[i + 1] - nodes->first[i] == 6)
+            for (int k = 0; k < 6; k++)
+                vertex[nodes->first[i] + k] = nodes->vertex[nodes->first[i] + order[k]];
+    return vertex;
+}
+
 static void put_cells(struct writer *w, const struct kr_nodes *nodes) {
-    int64_t *end = KR_NEW(int64_t, nodes->n), *alone = KR_NEW(int64_t, nodes->n);
+    int64_t *end = KR_NEW(int64_t, nodes->n), *vertex = vertices_of(nodes);
     unsigned char *type = KR_NEW(unsigned char, nodes->n);
     for (size_t i = 0; i < nodes->n; i++) {
-        alone[i] = (int64_t)i;
         end[i] = nodes->n_points ? nodes->first[i + 1] : (int64_t)i + 1;
         type[i] = type_of(nodes->dim, end[i] - (i ? end[i - 1] : 0));
     }
-    const int64_t *vertex = nodes->n_points ? nodes->vertex : alone;
     say(w, "<Cells>\n");
     put(w, "Int64", "connectivity", 1, (size_t)(nodes->n ? end[nodes->n - 1] : 0) * sizeof *vertex,
         vertex);
@@ -81,7 +94,7 @@ static void put_cells(struct writer *w, const struct kr_nodes *nodes) {
     put(w, "UInt8", "types", 1, nodes->n, type);
     say(w, "</Cells>\n");
     kr_free(end);
-    kr_free(alone);
+    kr_free(vertex);
     kr_free(type);
 }
 

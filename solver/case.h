@@ -306,6 +306,9 @@ void kr_case_check(struct kr_deck *deck, const struct kr_case *c);
 /** Dimensions of the body: 3 for a solid, else 2. */
 int kr_case_dim(const struct kr_case *c);
 
+/** The part of it that looks at the material: its law, and whether there is such a solid. */
+void kr_case_check_material(struct kr_deck *deck, const struct kr_case *c);
+
 /** The part of it that looks at pre-cracks. */
 void kr_case_check_cracks(struct kr_deck *deck, const struct kr_case *c);
 

@@ -4,7 +4,6 @@
  * but possible is a warning.
  */
 #include "base/error.h"
-#include "material/material.h"
 #include "case.h"
 
 #include <float.h>
@@ -151,17 +150,6 @@ static void check_deformation(struct kr_deck *deck, const struct kr_case *c) {
                       "%s is for bodies in 3D; a plate has x and y", word);
 }
 
-static void check_law(struct kr_deck *deck, const struct kr_case *c) {
-    char known[256] = "";
-    if (!c->law || kr_law_named(c->law))
-        return;
-    for (size_t k = 0; k < kr_laws_count; k++) {
-        size_t used = strlen(known);
-        snprintf(known + used, sizeof known - used, "%s%s", k ? ", " : "", kr_laws[k]->name);
-    }
-    kr_deck_fault(deck, &c->law, "unknown law '%.40s'; there is %s", c->law, known);
-}
-
 int kr_case_quantity(const char *word) {
     char known[32];
     for (int k = 0; k < KR_QUANTITIES; k++) {
@@ -189,15 +177,6 @@ static void check_probes(struct kr_deck *deck, const struct kr_case *c) {
             kr_deck_fault(deck, &probe[k].name,
                           "a probe's name may have letters, digits, '_' and '-', no others");
     }
-}
-
-/* Bonds leave no choice: 1/3 or 1/4, written with as few digits as people do. */
-static void check_poisson(struct kr_deck *deck, const struct kr_case *c) {
-    double own = c->model == KR_PLANE_STRESS ? 1.0 / 3 : 1.0 / 4;
-    if (kr_deck_given(deck, &c->poissons_ratio) && fabs(c->poissons_ratio - own) > 0.005)
-        kr_deck_fault(deck, &c->poissons_ratio,
-                      "found %g, but bonds make it %.4g in this model; leave it out, and compare with "
-                      "others at that value", c->poissons_ratio, own);
 }
 
 static void check_fields(struct kr_deck *deck, const struct kr_case *c) {
@@ -229,9 +208,8 @@ void kr_case_check(struct kr_deck *deck, const struct kr_case *c) {
             kr_case_check_box(deck, boxes[i].lower, boxes[i].upper, 2);
     check_fields(deck, c);
     check_probes(deck, c);
-    check_poisson(deck, c);
     check_deformation(deck, c);
-    check_law(deck, c);
+    kr_case_check_material(deck, c);
 }
 
 static int loads_use(const struct kr_deck_list *list, const char *set) {

@@ -4,7 +4,7 @@
  *
  *    A p = r ,   r_i = V_i f_i(u) ,   A = -dr/du ,   u <- u + a p
  *
- * with A p one pass over the bonds each (kr_body_product), and coarse.h as the preconditioner. A body
+ * with A p one pass over the bonds each (kr_body_product), and multigrid.h as the preconditioner. A body
  * of small strains is nearly linear, so two or three steps do. Prescribed components move in the first step,
  * and the others with them: never is a row of bonds stretched by a whole load step.
  */

@@ -16,8 +16,9 @@
 
 struct kr_grid_maker {
     struct kr_grid_level *grid;
-    int64_t (*place)[3]; /* (n) cell of each point */
-    int32_t *parent;     /* (n), then (n_elements x corners): union-find */
+    const unsigned char *idle; /* (n), not owned */
+    int64_t (*place)[3];       /* (n) cell of each point */
+    int32_t *parent;           /* (n), then (n_elements x corners): union-find */
 };
 
 static int32_t root_of(int32_t *parent, int32_t i) {
@@ -41,11 +42,15 @@ static int32_t *singles(size_t n) {
     return parent;
 }
 
-/* Number the roots in order, 0, 1, ...; returns how many. number[i] becomes that of i's root. */
-static size_t number_roots(int32_t *parent, size_t n, int32_t *number) {
+/* Number the roots in order, 0, 1, ...; returns how many. number[i] becomes that of i's root, -1 where i
+ * is idle. */
+static size_t number_roots(int32_t *parent, size_t n, const unsigned char *idle, int32_t *number) {
     size_t count = 0;
     for (size_t i = 0; i < n; i++)
-        number[i] = parent[i] == (int32_t)i ? (int32_t)count++ : number[root_of(parent, (int32_t)i)];
+        if (idle && idle[i])
+            number[i] = -1;
+        else
+            number[i] = parent[i] == (int32_t)i ? (int32_t)count++ : number[root_of(parent, (int32_t)i)];
     return count;
 }
 
@@ -60,7 +65,8 @@ static void bounds(int dim, size_t n, double *const x[3], double low[3], double 
     }
 }
 
-struct kr_grid_maker *kr_grid_begin(int dim, size_t n, double *const x[3], double width) {
+struct kr_grid_maker *kr_grid_begin(int dim, size_t n, double *const x[3], const unsigned char *idle,
+                                    double width) {
     struct kr_grid_maker *maker = KR_NEW(struct kr_grid_maker, 1);
     struct kr_grid_level *grid = maker->grid = KR_NEW(struct kr_grid_level, 1);
     double low[3] = {0}, high[3] = {0};
@@ -79,6 +85,7 @@ struct kr_grid_maker *kr_grid_begin(int dim, size_t n, double *const x[3], doubl
             maker->place[i][d] = k < 0 ? 0 : k >= grid->cells[d] ? grid->cells[d] - 1 : k;
         }
     maker->parent = singles(n);
+    maker->idle = idle;
     return maker;
 }
 
@@ -87,18 +94,19 @@ static int same_cell(const struct kr_grid_maker *maker, size_t i, size_t j) {
 }
 
 void kr_grid_join(struct kr_grid_maker *maker, size_t i, size_t j) {
-    if (same_cell(maker, i, j))
+    if (same_cell(maker, i, j) && !maker->idle[i] && !maker->idle[j])
         unite(maker->parent, (int32_t)i, (int32_t)j);
 }
 
 void kr_grid_elements(struct kr_grid_maker *maker) {
     struct kr_grid_level *grid = maker->grid;
     grid->element = KR_NEW(int32_t, grid->n);
-    grid->n_elements = number_roots(maker->parent, grid->n, grid->element);
+    grid->n_elements = number_roots(maker->parent, grid->n, maker->idle, grid->element);
     grid->cell = KR_NEW(int64_t, grid->n_elements);
     for (size_t i = 0; i < grid->n; i++) {
         const int64_t *at = maker->place[i];
-        grid->cell[grid->element[i]] = (at[2] * grid->cells[1] + at[1]) * grid->cells[0] + at[0];
+        if (grid->element[i] >= 0)
+            grid->cell[grid->element[i]] = (at[2] * grid->cells[1] + at[1]) * grid->cells[0] + at[0];
     }
     kr_free(maker->parent);
     maker->parent = singles(grid->n_elements * (size_t)grid->corners);
@@ -108,7 +116,7 @@ void kr_grid_elements(struct kr_grid_maker *maker) {
 void kr_grid_tie(struct kr_grid_maker *maker, size_t i, size_t j) {
     const struct kr_grid_level *grid = maker->grid;
     int64_t step[3];
-    if (grid->element[i] == grid->element[j])
+    if (grid->element[i] == grid->element[j] || maker->idle[i] || maker->idle[j])
         return;
     for (int d = 0; d < grid->dim; d++) {
         step[d] = maker->place[j][d] - maker->place[i][d];
@@ -208,7 +216,7 @@ struct kr_grid_level *kr_grid_finish(struct kr_grid_maker *maker, double *const 
     struct kr_grid_level *grid = maker->grid;
     size_t dim = (size_t)grid->dim, all = grid->n_elements * (size_t)grid->corners;
     grid->vertex = KR_NEW(int32_t, all);
-    grid->n_vertices = number_roots(maker->parent, all, grid->vertex);
+    grid->n_vertices = number_roots(maker->parent, all, NULL, grid->vertex);
     place_vertices(grid);
     find_shares(grid, maker->place, x);
     find_rows(grid);

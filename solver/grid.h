@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * One grid of the ladder of coarse.h: elements and vertices over a set of points, the
+ * One grid of the ladder of multigrid.h: elements and vertices over a set of points, the
  * interpolation between the two, and the stiffness on the vertices.
  */
 #ifndef KR_GRID_LADDER_H
@@ -19,7 +19,7 @@ struct kr_grid_level {
 
     /* per point of the finer grid (or node) */
     size_t n;
-    int32_t *element; /* (n) */
+    int32_t *element; /* (n) -1: takes no part */
     double *share;    /* (n x corners) of the corners of its element in its displacement */
 
     size_t n_elements;
@@ -39,9 +39,14 @@ struct kr_grid_level {
 };
 
 /** Lay cells of this width over n points. No elements yet: kr_grid_join tells which points hang
- *  together, kr_grid_elements closes that, kr_grid_tie and kr_grid_vertices do the same for corners. */
+ *  together, kr_grid_elements closes that, kr_grid_tie and kr_grid_finish do the same for corners.
+ *
+ *  in  idle  (n) points without stiffness; owned by the caller until kr_grid_finish. Each as an element of
+ *            its own would leave four (eight) idle vertices to the next grid, and these as many again.
+ */
 struct kr_grid_maker;
-struct kr_grid_maker *kr_grid_begin(int dim, size_t n, double *const x[3], double width);
+struct kr_grid_maker *kr_grid_begin(int dim, size_t n, double *const x[3], const unsigned char *idle,
+                                    double width);
 void kr_grid_join(struct kr_grid_maker *maker, size_t i, size_t j);
 void kr_grid_elements(struct kr_grid_maker *maker);
 void kr_grid_tie(struct kr_grid_maker *maker, size_t i, size_t j);

@@ -46,6 +46,8 @@ static double *blocks_for(struct kr_grid_row *row, int32_t element, size_t each)
 void kr_grid_row_add(struct kr_grid_row *row, const struct kr_grid_level *grid, size_t j,
                      const double *block) {
     size_t square = (size_t)(grid->dim * grid->dim), corners = (size_t)grid->corners;
+    if (grid->element[j] < 0)
+        return;
     double *into = blocks_for(row, grid->element[j], corners * square);
     const double *share = grid->share + j * corners;
     for (size_t a = 0; a < corners; a++)
@@ -69,7 +71,9 @@ static size_t place_of(const struct kr_grid_level *grid, size_t v, int32_t w) {
 void kr_grid_row_end(struct kr_grid_row *row, const struct kr_grid_level *grid, size_t i, double *into,
                      size_t from) {
     size_t square = (size_t)(grid->dim * grid->dim), corners = (size_t)grid->corners;
-    const int32_t *mine = grid->vertex + (size_t)grid->element[i] * corners;
+    if (grid->element[i] < 0)
+        row->count = 0;
+    const int32_t *mine = grid->vertex + (row->count ? (size_t)grid->element[i] * corners : 0);
     for (size_t k = 0; k < row->count; k++)
         for (size_t b = 0; b < corners; b++) {
             const double *reached = row->block + (k * corners + b) * square;

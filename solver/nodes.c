@@ -121,6 +121,9 @@ void kr_nodes_reorder(struct kr_nodes *nodes, const size_t *order) {
 
 /* ---- checks ---- */
 
+/* m. Squares of distances must stay numbers. */
+static const double farthest = 1e100;
+
 static char *fault_of_numbers(const struct kr_nodes *nodes) {
     size_t dim = (size_t)nodes->dim;
     for (size_t i = 0; i < nodes->n; i++) {
@@ -128,6 +131,9 @@ static char *fault_of_numbers(const struct kr_nodes *nodes) {
             if (!isfinite(nodes->position[i * dim + d]))
                 return kr_text("node %zu (tag %lld) has the position %g; expected a finite number",
                                i, (long long)nodes->tag[i], nodes->position[i * dim + d]);
+            else if (fabs(nodes->position[i * dim + d]) > farthest)
+                return kr_text("node %zu (tag %lld) stands at %g m; expected at most %g", i,
+                               (long long)nodes->tag[i], nodes->position[i * dim + d], farthest);
         if (!(nodes->volume[i] > 0) || !isfinite(nodes->volume[i]))
             return kr_text("node %zu (tag %lld) has the volume %g; expected a positive number", i,
                            (long long)nodes->tag[i], nodes->volume[i]);
@@ -165,22 +171,34 @@ static int is_solid(int64_t vertices) {
     return vertices >= 24 && vertices % 4 == 0;
 }
 
-static char *fault_of_cells(const struct kr_nodes *nodes) {
-    if (!nodes->n_points)
-        return NULL;
+/* Where the corners of each cell begin: looked at before any corner, for a place beyond the end may stand
+ * anywhere in between. */
+static char *fault_of_begins(const struct kr_nodes *nodes) {
     for (size_t i = 0; i < nodes->n; i++) {
+        if (nodes->first[i] < 0 || nodes->first[i + 1] < nodes->first[i])
+            return kr_text("the corners of node %zu's cell begin at %lld, and those of the next at %lld; "
+                           "expected ascending places", i, (long long)nodes->first[i],
+                           (long long)nodes->first[i + 1]);
         int64_t corners = nodes->first[i + 1] - nodes->first[i];
         if (corners < 3)
             return kr_text("the cell of node %zu has fewer than 3 corners", i);
         if (nodes->dim == 3 && !is_solid(corners))
             return kr_text("the cell of node %zu has %lld vertices, and no solid has so many", i,
                            (long long)corners);
-        for (int64_t k = nodes->first[i]; k < nodes->first[i + 1]; k++)
-            if (nodes->vertex[k] < 0 || nodes->vertex[k] >= (int64_t)nodes->n_points)
-                return kr_text("the cell of node %zu has the corner %lld; expected 0 to %zu", i,
-                               (long long)nodes->vertex[k], nodes->n_points - 1);
     }
     return NULL;
+}
+
+static char *fault_of_cells(const struct kr_nodes *nodes) {
+    if (!nodes->n_points)
+        return NULL;
+    char *fault = fault_of_begins(nodes);
+    for (size_t i = 0; i < nodes->n && !fault; i++)
+        for (int64_t k = nodes->first[i]; k < nodes->first[i + 1] && !fault; k++)
+            if (nodes->vertex[k] < 0 || nodes->vertex[k] >= (int64_t)nodes->n_points)
+                fault = kr_text("the cell of node %zu has the corner %lld; expected 0 to %zu", i,
+                                (long long)nodes->vertex[k], nodes->n_points - 1);
+    return fault;
 }
 
 /* Two nodes at one place have no bond direction. A millionth of the spacing is one place. */

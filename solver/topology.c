@@ -7,6 +7,9 @@
 #include "base/error.h"
 #include "base/memory.h"
 
+#include <math.h>
+#include <string.h>
+
 enum { POLYGON = 3, POLYHEDRON = 16 };
 
 struct words {
@@ -49,24 +52,75 @@ static int is_inside(int64_t n, const int64_t *vertex, int64_t k, const int *fac
     return 0;
 }
 
-static void put_polyhedron(struct words *w, int64_t n, const int64_t *vertex) {
-    int64_t faces = 0;
-    put(w, POLYHEDRON);
-    put(w, 0);
-    size_t where = w->count - 1;
+/* The outer triangles of n tetrahedra that fill a cell; returns how many. */
+static size_t outer_triangles(int64_t n, const int64_t *vertex, int64_t (*triangle)[3]) {
+    size_t count = 0;
     for (int64_t k = 0; k < n; k++)
         for (int f = 0; f < 4; f++) {
             if (is_inside(n, vertex, k, face_of[f]))
                 continue;
-            put(w, 3);
             for (int c = 0; c < 3; c++)
-                put(w, vertex[4 * k + face_of[f][c]]);
-            faces++;
+                triangle[count][c] = vertex[4 * k + face_of[f][c]];
+            count++;
         }
-    w->word[where] = faces;
+    return count;
 }
 
-static void put_solid(struct words *w, int64_t n, const int64_t *vertex) {
+static double square_between(const struct kr_nodes *nodes, int64_t p, int64_t q) {
+    double square = 0;
+    for (int d = 0; d < 3; d++) {
+        double way = nodes->point[3 * p + d] - nodes->point[3 * q + d];
+        square += way * way;
+    }
+    return square;
+}
+
+/* Whether two triangles are the halves of a rectangle; then its corners. A rectangle's halves share their
+ * longest side, the diagonal, and the two diagonals have one middle. Neighbours decide alike, for they
+ * have the same two triangles. */
+static int is_rectangle(const struct kr_nodes *nodes, const int64_t a[3], const int64_t b[3],
+                        int64_t corner[4]) {
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            int64_t p = a[i], q = a[(i + 1) % 3], r = a[(i + 2) % 3], s = b[(j + 2) % 3];
+            if (b[j] != q || b[(j + 1) % 3] != p)
+                continue;
+            double diagonal = square_between(nodes, p, q), off = 0;
+            for (int d = 0; d < 3; d++)
+                off += fabs(nodes->point[3 * p + d] + nodes->point[3 * q + d] -
+                            nodes->point[3 * r + d] - nodes->point[3 * s + d]);
+            if (off * off > 1e-18 * diagonal || square_between(nodes, r, s) > diagonal * (1 + 1e-9))
+                return 0;
+            memcpy(corner, (const int64_t[]){p, s, q, r}, 4 * sizeof *corner);
+            return 1;
+        }
+    return 0;
+}
+
+/* Halves of rectangles are put together: cubes beside this cell have whole faces, and a viewer shows a face
+ * as outside where no other cell has the same. */
+static void put_polyhedron(struct words *w, const struct kr_nodes *nodes, int64_t n, const int64_t *vertex) {
+    int64_t(*triangle)[3] = kr_alloc((size_t)(4 * n), sizeof *triangle), corner[4];
+    size_t count = outer_triangles(n, vertex, triangle), where = w->count + 1;
+    unsigned char *done = KR_NEW(unsigned char, count + 1);
+    put(w, POLYHEDRON);
+    put(w, 0);
+    for (size_t a = 0; a < count; a++) {
+        size_t b = a + 1;
+        if (done[a])
+            continue;
+        while (b < count && (done[b] || !is_rectangle(nodes, triangle[a], triangle[b], corner)))
+            b++;
+        put(w, b < count ? 4 : 3);
+        put_corners(w, b < count ? 4 : 3, b < count ? corner : triangle[a]);
+        done[b] = 1;
+        w->word[where]++;
+    }
+    kr_free(done);
+    kr_free(triangle);
+}
+
+static void put_solid(struct words *w, const struct kr_nodes *nodes, int64_t n, const int64_t *vertex) {
     static const struct {
         int64_t corners, with_middles, number;
     } solid[] = {{4, 10, 6}, {5, 13, 7}, {6, 15, 8}, {8, 20, 9}};
@@ -77,7 +131,7 @@ static void put_solid(struct words *w, int64_t n, const int64_t *vertex) {
             return;
         }
     kr_assert(n % 4 == 0);
-    put_polyhedron(w, n / 4, vertex);
+    put_polyhedron(w, nodes, n / 4, vertex);
 }
 
 int64_t *kr_topology_make(const struct kr_nodes *nodes, size_t *count) {
@@ -88,7 +142,7 @@ int64_t *kr_topology_make(const struct kr_nodes *nodes, size_t *count) {
         if (nodes->dim == 2)
             put_polygon(&w, n, vertex);
         else
-            put_solid(&w, n, vertex);
+            put_solid(&w, nodes, n, vertex);
     }
     *count = w.count;
     return w.word;

@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double MM = 1e-3;
+#define MM 1e-3
 
 /** Sum of the cells' volumes [mm^3]; each is positive. */
 static inline double kr_test_volume(const struct kr_mesh *mesh) {

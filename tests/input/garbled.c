@@ -6,19 +6,12 @@
  */
 #include "test.h"
 
-#include "base/error.h"
-#include "cad.h"
-#include "case.h"
-#include "fill.h"
-#include "import.h"
-#include "mesh.h"
 #include "random.h"
+#include "readers.h"
 
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-
-static char folder[] = "/tmp/kirsch-garbled-XXXXXX";
 
 /** A file in memory. */
 struct text {
@@ -128,64 +121,6 @@ static void damage(struct text *text, uint64_t *state) {
         text->byte[text->n++] = '\n';
 }
 
-/* ---- readers: each gets the path of a damaged file ---- */
-
-static void read_nodes(const char *path) {
-    struct kr_mesh *mesh;
-    struct kr_import import = {.path = path, .unit = 1, .folder = folder, .spacing = 0.5};
-    struct kr_nodes *nodes = kr_import(&import, &mesh);
-    kr_nodes_free(nodes);
-    kr_mesh_free(mesh);
-}
-
-static void mend_nodes(const char *path) {
-    struct kr_mesh *mesh;
-    struct kr_import import = {.path = path, .unit = 1, .repair = 1, .folder = folder};
-    struct kr_nodes *nodes = kr_import(&import, &mesh);
-    kr_nodes_free(nodes);
-    kr_mesh_free(mesh);
-}
-
-static void read_set(const char *path) {
-    struct kr_mesh *mesh;
-    const char *set[] = {path};
-    struct kr_import import = {.path = "tests/corpus/peridigm.txt",
-                               .unit = 1,
-                               .folder = folder,
-                               .n_sets = 1,
-                               .set = set};
-    kr_nodes_free(kr_import(&import, &mesh));
-}
-
-static void read_pores(const char *path) {
-    struct kr_case c = {.width = 50e-3, .height = 25e-3};
-    size_t n;
-    kr_free(kr_case_read_pores(&c, path, &n));
-}
-
-static void read_curves(const char *path) {
-    FILE *file = fopen(path, "r");
-    struct kr_shape *face;
-    const struct kr_cad_place place = {{0, 0}, 0, 2e-4};
-    size_t n = kr_cad_parse(file, path, &place, &face);
-    for (size_t f = 0; f < n; f++)
-        kr_shape_free(&face[f]);
-    kr_free(face);
-    fclose(file);
-}
-
-/** A fault is told, not stopped at: gmsh.c then tries another method. */
-static void read_reply(const char *path) {
-    FILE *file = fopen(path, "r");
-    double corner[] = {0, 0, 2, 0, 2, 1, 0, 1};
-    size_t segments[] = {2, 1, 2, 1}, first[] = {0, 4};
-    struct kr_gmsh_region region = {1, first, corner, segments, "two squares"};
-    char *fault = kr_fill_read(&region, file);
-    fclose(file);
-    if (fault)
-        kr_stop(KR_EXIT_INPUT, "%s: %s", path, fault);
-}
-
 /** Formats that Python reads, by the program itself: it finds the script beside it. */
 static void read_by_program(const char *path) {
     const char *build = getenv("BUILD");
@@ -288,7 +223,8 @@ static void garbled_meshes_stop_with_a_sentence(void **unused) {
 
 /** Few: a start of Python takes half a second. */
 static void garbled_meshes_of_others_stop_with_a_sentence(void **unused) {
-    static const char *const name[] = {"plane.inp", "plane.unv", "plane.vtu", "plane.e"};
+    static const char *const name[] = {"plane.inp", "plane.unv", "plane.vtu", "plane.e",
+                                       "plane.cdb"};
     (void)unused;
     for (size_t k = 0; k < sizeof name / sizeof *name; k++)
         check(name[k], read_by_program, 4);
@@ -308,6 +244,12 @@ static void garbled_pores_stop_with_a_sentence(void **unused) {
     check("pores-paper.txt", read_pores, 250);
 }
 
+static void garbled_triangles_stop_with_a_sentence(void **unused) {
+    (void)unused;
+    check("tetrahedron.stl", read_stl, 250);
+    check("tetrahedron-binary.stl", read_stl, 250);
+}
+
 static void garbled_replies_of_gmsh_are_told(void **unused) {
     (void)unused;
     check("reply.txt", read_reply, 500);
@@ -324,6 +266,7 @@ int main(void) {
         cmocka_unit_test(garbled_meshes_of_others_stop_with_a_sentence),
         cmocka_unit_test(garbled_points_stop_with_a_sentence),
         cmocka_unit_test(garbled_pores_stop_with_a_sentence),
+        cmocka_unit_test(garbled_triangles_stop_with_a_sentence),
         cmocka_unit_test(garbled_replies_of_gmsh_are_told),
         cmocka_unit_test(garbled_curves_are_told),
     };

@@ -4,17 +4,10 @@
  * positive and simple, every boundary side is in a named group, boundaries are closed chains, and
  * the same plate gives the same bits. gmsh itself is at work.
  */
-#include "test.h"
+#include "planes.h"
 
-#include "cell.h"
-#include "mesh.h"
 #include "pieces.h"
-#include "plate.h"
-#include "pores.h"
 #include "quality.h"
-#include "side.h"
-
-static const double MM = 1e-3;
 
 /** A plate of 6 by 6 mm: outline, holes, area and length of its edges. */
 struct sample {
@@ -88,105 +81,20 @@ static void fill_samples(struct sample *s) {
     for (size_t k = 0; k < N_SAMPLES; k++) {
         s[k].outline.radius *= MM;
         s[k].outline.inner_radius *= MM;
-        for (size_t h = 0; h < s[k].n; h++) {
-            struct kr_case_hole *hole = &s[k].hole[h];
-            double *length[] = {&hole->centre[0], &hole->centre[1], &hole->radius,
-                                &hole->radii[0],  &hole->radii[1],  &hole->size[0],
-                                &hole->size[1],   &hole->length,    &hole->width,
-                                &hole->corner_radius};
-            for (size_t l = 0; l < sizeof length / sizeof *length; l++)
-                *length[l] *= MM;
-        }
+        for (size_t h = 0; h < s[k].n; h++)
+            kr_test_in_mm(&s[k].hole[h]);
     }
 }
 
 static struct kr_mesh *mesh_of(const struct sample *s, enum kr_grid grid,
                                struct kr_plate_report *report) {
-    const char *build = getenv("BUILD");
-    char *helper = kr_text("%s/kirsch-gmsh", build ? build : "build");
-    struct kr_plate plate = {.width = 6 * MM,
-                             .height = 6 * MM,
-                             .spacing = 0.15 * MM,
-                             .padding = 0.45 * MM,
-                             .grid = grid,
-                             .n_holes = s->n,
-                             .hole = s->hole,
-                             .gmsh = {helper, 0, 0},
-                             .lloyd_steps = 5,
-                             .outline = s->outline};
-    struct kr_mesh *mesh = kr_plate_mesh(&plate, report);
-    kr_free(helper);
-    return mesh;
-}
-
-/** No two sides of a cell cross. */
-static void check_simple(const struct kr_mesh *mesh, size_t c) {
-    size_t n = mesh->first[c + 1] - mesh->first[c];
-    const size_t *v = mesh->vertex + mesh->first[c];
-    for (size_t k = 0; k < n; k++)
-        for (size_t l = k + 2; l < n - (k == 0); l++) {
-            const double *a = mesh->point + 3 * v[k], *b = mesh->point + 3 * v[(k + 1) % n];
-            const double *p = mesh->point + 3 * v[l], *q = mesh->point + 3 * v[(l + 1) % n];
-            double x = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
-            double y = (b[0] - a[0]) * (q[1] - a[1]) - (b[1] - a[1]) * (q[0] - a[0]);
-            double z = (q[0] - p[0]) * (a[1] - p[1]) - (q[1] - p[1]) * (a[0] - p[0]);
-            double w = (q[0] - p[0]) * (b[1] - p[1]) - (q[1] - p[1]) * (b[0] - p[0]);
-            assert_false(((x > 0) != (y > 0)) && ((z > 0) != (w > 0)));
-        }
-}
-
-/** Every side without a cell behind it is an edge of just one group, and at every point as many
- *  edges end as begin. Returns the length of all edges [mm]. */
-static double check_groups(const struct kr_mesh *mesh) {
-    struct kr_sides *sides =
-        kr_sides_create(mesh->n_points, mesh->n_cells, mesh->first, mesh->vertex);
-    int *balance = KR_NEW(int, mesh->n_points);
-    size_t rim = 0, grouped = 0;
-    double length = 0;
-    for (size_t s = 0; s < sides->count; s++)
-        rim += !kr_sides_find(sides, sides->side[s].to, sides->side[s].from, NULL);
-    assert_int_equal(rim, mesh->n_edges);
-    for (size_t g = 0; g < mesh->n_groups; g++)
-        grouped += mesh->group[g].dim == 1 ? mesh->group[g].count : 0;
-    assert_int_equal(grouped, mesh->n_edges);
-    for (size_t e = 0; e < mesh->n_edges; e++) {
-        const double *p = mesh->point + 3 * mesh->edge[2 * e];
-        const double *q = mesh->point + 3 * mesh->edge[2 * e + 1];
-        balance[mesh->edge[2 * e]]++;
-        balance[mesh->edge[2 * e + 1]]--;
-        length += hypot(q[0] - p[0], q[1] - p[1]);
-        assert_int_equal(kr_sides_find(sides, mesh->edge[2 * e], mesh->edge[2 * e + 1], NULL) +
-                             kr_sides_find(sides, mesh->edge[2 * e + 1], mesh->edge[2 * e], NULL),
-                         1);
-    }
-    for (size_t p = 0; p < mesh->n_points; p++)
-        assert_int_equal(balance[p], 0);
-    kr_free(balance);
-    kr_sides_free(sides);
-    return length / MM;
-}
-
-static double area_of(const struct kr_mesh *mesh) {
-    long double sum = 0;
-    for (size_t c = 0; c < mesh->n_cells; c++) {
-        double corner[2 * 64], centroid[2];
-        size_t n = mesh->first[c + 1] - mesh->first[c];
-        assert_true(n <= 64);
-        for (size_t k = 0; k < n; k++)
-            memcpy(corner + 2 * k, mesh->point + 3 * mesh->vertex[mesh->first[c] + k],
-                   2 * sizeof *corner);
-        double area = kr_cell_polygon(n, corner, centroid);
-        assert_true(area > 0);
-        check_simple(mesh, c);
-        sum += area;
-    }
-    return (double)sum / (MM * MM);
+    return kr_test_plate(&s->outline, s->n, s->hole, grid, 0.15 * MM, report);
 }
 
 static void check_sample(const struct sample *s, enum kr_grid grid) {
     struct kr_plate_report report;
     struct kr_mesh *mesh = mesh_of(s, grid, &report);
-    double area = area_of(mesh), length = check_groups(mesh);
+    double area = kr_test_plane(mesh), length = kr_test_groups(mesh);
     struct kr_quality q = kr_quality_of(mesh, report.n_lattice, mesh->n_cells, 0.15 * MM);
     assert_null(kr_mesh_fault(mesh));
     kr_check_near(area / (report.polygonal_area / (MM * MM)), 1, 1e-12);
@@ -266,19 +174,19 @@ static void pieces_come_together_again(void **unused) {
         struct kr_plate_report report;
         struct kr_mesh *mesh = mesh_of(&sample[k], KR_GRID_VORONOI, &report);
         size_t cells = mesh->n_cells, corners = mesh->first[cells];
-        double area = area_of(mesh);
+        double area = kr_test_plane(mesh);
         kr_pieces_cut(mesh);
         assert_true(mesh->n_cells > cells);
         for (size_t c = 0; c < mesh->n_cells; c++)
             assert_true(mesh->first[c + 1] - mesh->first[c] <= 4);
-        kr_check_near(area_of(mesh), area, 1e-12);
+        kr_check_near(kr_test_plane(mesh), area, 1e-12);
         assert_null(kr_mesh_fault(mesh));
         kr_pieces_join(mesh, "a mesh");
         assert_int_equal(mesh->n_cells, cells);
         assert_int_equal(mesh->first[cells], corners);
         assert_null(kr_mesh_group(mesh, KR_PIECES_GROUP, 2));
         assert_int_equal(kr_mesh_group(mesh, "plate", 2)->count, cells);
-        kr_check_near(area_of(mesh), area, 1e-12);
+        kr_check_near(kr_test_plane(mesh), area, 1e-12);
         assert_null(kr_mesh_fault(mesh));
         kr_mesh_free(mesh);
         kr_plate_report_free(&report);
@@ -317,55 +225,6 @@ static void voronoi_is_even_and_quick(void **unused) {
     kr_free(helper);
 }
 
-/** 500 fields of 30 pores, coarse: none fails, and all keep the rules. */
-static void pores_500(void **unused) {
-    (void)unused;
-    double least = INFINITY, most = 0, seconds = 0;
-    for (int64_t seed = 1; seed <= 500; seed++) {
-        struct kr_case c = {.width = 50 * MM,
-                            .height = 25 * MM,
-                            .pores = {.count = 30,
-                                      .seed = seed,
-                                      .attempts = 1000000,
-                                      .radius = {0.75 * MM, 1.5 * MM},
-                                      .edge_diameters = 1,
-                                      .gap = 0.3 * MM}};
-        struct kr_plate_report report;
-        double exact = 50 * 25;
-        struct kr_pores thrown = kr_pores_throw(&c);
-        const struct kr_case_hole *pore = thrown.hole;
-        assert_int_equal(thrown.placed, 30);
-        struct kr_plate plate = {.width = 50 * MM,
-                                 .height = 25 * MM,
-                                 .spacing = 0.25 * MM,
-                                 .padding = 0.75 * MM,
-                                 .grid = KR_GRID_VORONOI,
-                                 .n_holes = 30,
-                                 .hole = pore,
-                                 .lloyd_steps = 5};
-        for (size_t k = 0; k < 30; k++) {
-            exact -= M_PI * pore[k].radius * pore[k].radius / (MM * MM);
-            for (size_t l = 0; l < k; l++)
-                assert_true(hypot(pore[k].centre[0] - pore[l].centre[0],
-                                  pore[k].centre[1] - pore[l].centre[1]) >=
-                            pore[k].radius + pore[l].radius + (0.3 - 1e-9) * MM);
-        }
-        struct kr_mesh *mesh = kr_plate_mesh(&plate, &report);
-        struct kr_quality q = kr_quality_of(mesh, 0, mesh->n_cells, 0.25 * MM);
-        kr_check_near(area_of(mesh) / exact, 1, 1e-12);
-        least = fmin(least, q.least);
-        most = fmax(most, q.most);
-        seconds += report.seconds;
-        kr_mesh_free(mesh);
-        kr_plate_report_free(&report);
-        kr_pores_free(&thrown);
-    }
-    kr_figure("500 fields of 30 pores: cells of %.2f to %.2f spacings squared, %.1f s", least, most,
-              seconds);
-    assert_true(least > 0.3 && most < 2.5);
-    assert_int_equal(kr_memory_outstanding(), 0);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_shape_on_the_uniform_grid),
@@ -375,7 +234,6 @@ int main(void) {
         cmocka_unit_test(the_same_plate_gives_the_same_bits),
         cmocka_unit_test(pieces_come_together_again),
         cmocka_unit_test(voronoi_is_even_and_quick),
-        cmocka_unit_test(pores_500),
     };
     kr_run_tests(tests);
 }

@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The grid around a hole or a void: cells by their size. Of a solid, what a plane cuts of them."""
+import numpy as np
+from matplotlib.collections import LineCollection, PolyCollection
+
+from maps import save
+from results import Fault
+from style import plt
+
+# Solids of few corners as tetrahedra, and their faces; the order is VTK's.
+TETRAHEDRA = {
+    "tetrahedron": [[0, 1, 2, 3]],
+    "pyramid": [[0, 1, 2, 4], [0, 2, 3, 4]],
+    "wedge": [[0, 1, 2, 3], [1, 2, 3, 4], [2, 3, 4, 5]],
+    "hexahedron": [[0, 1, 2, 6], [0, 2, 3, 6], [0, 3, 7, 6], [0, 7, 4, 6], [0, 4, 5, 6], [0, 5, 1, 6]],
+}
+FACES = {
+    "tetrahedron": [[0, 1, 2], [0, 1, 3], [1, 2, 3], [0, 2, 3]],
+    "pyramid": [[0, 1, 2, 3], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]],
+    "wedge": [[0, 1, 2], [3, 4, 5], [0, 1, 4, 3], [1, 2, 5, 4], [2, 0, 3, 5]],
+    "hexahedron": [[0, 1, 2, 3], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]],
+}
+KINDS = {4: "tetrahedron", 10: "tetrahedron", 5: "pyramid", 13: "pyramid", 6: "wedge", 15: "wedge",
+         8: "hexahedron", 20: "hexahedron"}
+AXES = "xyz"
+
+
+def close_up(case, choice):
+    """Middle [mm] and half width of the picture: about 3 radii around the hole or void asked for,
+    else around the one nearest to the middle; or 40 spacings where there is none."""
+    lower, upper = case.box()
+    middle, half = (lower + upper) / 2, 20 * case.cells()[4]
+    if choice.place is not None:
+        round_one = choice.place
+    else:
+        there = [h for h in case.holes + case.voids if h[-1] > 0]
+        if not there:
+            return middle, half
+        round_one = min(there, key=lambda h: np.linalg.norm(h[:-1] - middle[:len(h) - 1]))
+    middle[:len(round_one) - 1] = round_one[:-1]
+    return middle, max(1.6 * round_one[-1], round_one[-1] + 4 * case.cells()[4])
+
+
+class Choice:
+    """What `--hole N`, `--void N` and `--slice z=2 mm` ask for."""
+
+    def __init__(self, case, hole=None, void=None, cut=None):
+        self.place, self.name, self.axis, self.level = None, "", 2, None
+        for kind, number, known in (("hole", hole, case.holes), ("void", void, case.voids)):
+            if number is None:
+                continue
+            if not number.isdigit() or not 1 <= int(number) <= len(known):
+                raise Fault("there is no %s %s; the case has %d" % (kind, number, len(known)))
+            self.place = known[int(number) - 1]
+            self.name += "_%s_%s" % (kind, number)
+            if not self.place[-1] > 0:
+                raise Fault("void %s comes from a file: give a plane by --slice instead" % number)
+        if cut is not None:
+            axis, _, level = cut.partition("=")
+            level = level.strip()
+            if axis.strip() not in tuple(AXES) or not level.endswith("mm"):
+                raise Fault("unknown plane `%s`; expected as --slice 'z=2.5 mm'" % cut)
+            self.axis = AXES.index(axis.strip())
+            try:
+                self.level = float(level[:-2])
+            except ValueError:
+                raise Fault("unknown plane `%s`; expected as --slice 'z=2.5 mm'" % cut)
+            self.name += "_" + axis.strip()
+
+
+def grid(case, choice=None):
+    choice = choice or Choice(case)
+    middle, half = close_up(case, choice)
+    draw = flat if len(middle) == 2 else section
+    if len(middle) == 2 and choice.level is not None:
+        raise Fault("a plate has no slices: leave out --slice")
+    figure, axes = plt.subplots(figsize=(4.6, 3.9), constrained_layout=True)
+    cells, label = draw(case, choice, middle, half, axes)
+    figure.colorbar(cells, ax=axes, label=label, shrink=0.9)
+    return save(case, figure, "grid" + choice.name)
+
+
+def colour(cells, sizes):
+    cells.set_clim(0, max(1.5, np.percentile(sizes, 99.5)))
+    return cells
+
+
+def flat(case, choice, middle, half, axes):
+    point, first, vertex, area, spacing = case.cells()
+    centre = point[vertex[first[:-1]]]
+    seen = np.flatnonzero((np.abs(centre - middle) < half + 2 * spacing).all(axis=1))
+    if not len(seen):
+        raise Fault("there are no cells around (%.4g, %.4g) mm" % tuple(middle))
+    sizes = area[seen] / spacing**2
+    cells = PolyCollection([point[vertex[first[k]:first[k + 1]]] for k in seen], array=sizes,
+                           cmap="YlGnBu", edgecolor="0.25", linewidth=0.25)
+    axes.add_collection(colour(cells, sizes))
+    frame(axes, middle, half, (0, 1))
+    axes.set_title("%d cells, %d shown; spacing %.4g mm" % (len(area), len(seen), spacing))
+    return cells, "area of a cell / spacing²"
+
+
+def frame(axes, middle, half, shown):
+    a, b = shown
+    axes.set(xlim=(middle[a] - half, middle[a] + half), ylim=(middle[b] - half, middle[b] + half),
+             xlabel=AXES[a] + " (mm)", ylabel=AXES[b] + " (mm)", aspect="equal")
+
+
+# ---- solids ------------------------------------------------------------------------------------
+
+def section(case, choice, middle, half, axes):
+    point, first, vertex, volume, spacing = case.cells()
+    axis = choice.axis
+    shown = [d for d in range(3) if d != axis]
+    level = middle[axis] if choice.level is None else choice.level
+    height = point[:, axis] - level - 1e-6 * spacing  # no corner lies in the plane itself
+    seen = cells_across(point, first, vertex, height, middle, half + 2 * spacing, shown)
+    if not len(seen):
+        raise Fault("the plane %s = %.4g mm cuts no cell there" % (AXES[axis], level))
+    solids, owners, faces = pieces(first, vertex, seen)
+    polygons, of = cut_tetrahedra(point, height, solids, owners, shown)
+    sizes = volume[of] * 1e3 / spacing**3  # the file's mm^2 are m^3 times 1e6
+    cells = PolyCollection(polygons, array=sizes, cmap="YlGnBu", linewidth=0.6, edgecolor="face")
+    axes.add_collection(colour(cells, sizes))
+    axes.add_collection(LineCollection(cut_faces(point, height, faces, shown), colors="0.25",
+                                       linewidths=0.3))
+    frame(axes, middle, half, shown)
+    axes.set_title("%d cells, %d in the plane %s = %.4g mm; spacing %.4g mm"
+                   % (len(volume), len(seen), AXES[axis], level, spacing))
+    return cells, "volume of a cell / spacing³"
+
+
+def cells_across(point, first, vertex, height, middle, reach, shown):
+    """Cells in the picture with corners on both sides of the plane."""
+    start = first[:-1]
+    tops = np.maximum.reduceat(height[vertex], start)
+    bottoms = np.minimum.reduceat(height[vertex], start)
+    corner = point[vertex[start]]
+    near = (np.abs(corner[:, shown] - middle[shown]) < reach).all(axis=1)
+    return np.flatnonzero((tops > 0) & (bottoms < 0) & near)
+
+
+def pieces(first, vertex, seen):
+    """Tetrahedra of cells, their cells, and the faces of each cell as lists of corners."""
+    solids, owners, faces = [], [], []
+    for k in seen:
+        corner = vertex[first[k]:first[k + 1]]
+        kind = KINDS.get(len(corner))
+        if kind:
+            parts = corner[TETRAHEDRA[kind]]
+            faces += [corner[f] for f in FACES[kind]]
+        else:
+            parts = corner.reshape(-1, 4)
+            sides = np.concatenate([parts[:, f] for f in FACES["tetrahedron"]])
+            _, where, count = np.unique(np.sort(sides, axis=1), axis=0, return_index=True,
+                                        return_counts=True)
+            faces += list(sides[where[count == 1]])  # those between two of the pieces lie inside
+        solids.append(parts)
+        owners.append(np.full(len(parts), k))
+    return np.concatenate(solids), np.concatenate(owners), faces
+
+
+def crossing(point, height, p, q, shown):
+    """Where the edges from p to q go through the plane."""
+    t = (height[p] / (height[p] - height[q]))[..., None]
+    return (point[p] + t * (point[q] - point[p]))[..., shown]
+
+
+def cut_tetrahedra(point, height, solids, owners, shown):
+    """Triangles and quadrilaterals that a plane cuts out of tetrahedra, and the cells they are of."""
+    order = np.argsort(height[solids] > 0, axis=1, kind="stable")  # those below come first
+    solids = np.take_along_axis(solids, order, axis=1)
+    below = (height[solids] < 0).sum(axis=1)
+    polygons, of = [], []
+    for count, edges in ((1, [(0, 1), (0, 2), (0, 3)]), (3, [(3, 0), (3, 1), (3, 2)]),
+                         (2, [(0, 2), (0, 3), (1, 3), (1, 2)])):
+        some = solids[below == count]
+        corners = [crossing(point, height, some[:, a], some[:, b], shown) for a, b in edges]
+        polygons += list(np.stack(corners, axis=1))
+        of.append(owners[below == count])
+    return polygons, np.concatenate(of)
+
+
+def cut_faces(point, height, faces, shown):
+    """Lines in which a plane cuts faces of three and of four corners."""
+    lines = []
+    for n in (3, 4):
+        some = np.array([f for f in faces if len(f) == n]).reshape(-1, n)
+        if not len(some):
+            continue
+        after = np.roll(some, -1, axis=1)
+        cut = (height[some] > 0) != (height[after] > 0)
+        twice = cut.sum(axis=1) == 2  # a bent face may be met four times: left out
+        p, q = some[twice][cut[twice]], after[twice][cut[twice]]
+        lines += list(crossing(point, height, p, q, shown).reshape(-1, 2, 2))
+    return lines
