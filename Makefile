@@ -83,8 +83,8 @@ KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 $(foreach k,$(kernels),$(eval KERNEL_$(k)_mixed := $(KERNEL_$(k)) -DKR_FLOAT))
 
-.PHONY: FORCE all help demo study test fuzz oracle bench bench-growth bench-read node-order deps corrections pores-500 equilibrium \
-        free-grid lloyd-solid bar soak validate $(cases) \
+.PHONY: FORCE all help demo study test fuzz oracle bench bench-growth bench-read node-order deps \
+        corrections pores-500 equilibrium free-grid lloyd-solid bar soak validate $(cases) \
         docs format install clean check-deps sbom
 all: check-deps $(programs) $(scripts)
 
