@@ -6,6 +6,7 @@
 #   make test       all tests (ONLY=word: those whose name contains the word)
 #   make fuzz       damaged files for every reader, under AFL++ (FUZZ_SECONDS= each, KINDS=)
 #   make bench      measure the speed; writes build/bench.csv
+#   make bench-growth  the speed by nodes, m and threads, and what mixed precision changes
 #   make deps       list what the system lacks and install it (Debian; sudo where not root)
 #   make corrections  write docs/corrections.md anew: all partial volumes with all surface corrections
 #   make sbom       list what is linked, as SPDX (build/kirsch.spdx)
@@ -82,8 +83,8 @@ KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 $(foreach k,$(kernels),$(eval KERNEL_$(k)_mixed := $(KERNEL_$(k)) -DKR_FLOAT))
 
-.PHONY: FORCE all help demo study test fuzz oracle bench bench-read node-order deps corrections pores-500 equilibrium \
-        free-grid lloyd-solid bar soak validate $(cases) \
+.PHONY: FORCE all help demo study test fuzz oracle bench bench-growth bench-read node-order deps \
+        corrections pores-500 equilibrium free-grid lloyd-solid bar soak validate $(cases) \
         docs format install clean check-deps sbom
 all: check-deps $(programs) $(scripts)
 
@@ -209,6 +210,10 @@ bench: deps
 	@OMP_NUM_THREADS=1 lmp -in cases/bench/lammps_pmb.in -log $(BUILD)/lammps.log -screen none || true
 	@$(BUILD)/kirsch-bench $(BUILD)/bench.csv $(BUILD)/lammps.log
 	@BUILD=$(BUILD) cases/bench/large $(BUILD)/bench.csv
+
+bench-growth: all
+	@$(BUILD)/kirsch-bench --growth
+	@BUILD=$(BUILD) cases/bench/precision
 
 oracle: all
 	@if pkg-config --exists petsc; then \

@@ -12,16 +12,16 @@
 
 /* As kr_bonds_padded. */
 static float *padded_floats(size_t n) {
-    return KR_NEW(float, n + 3 * KR_LANES) + KR_LANES;
+    return KR_NEW(float, n + 2 * KR_PAIR + KR_LANES) + KR_PAIR;
 }
 
 static void free_rounded(struct kr_body *body) {
     for (int d = 0; d < body->dim && body->rounded; d++) {
-        kr_free(body->rounded->high[d] - KR_LANES);
-        kr_free(body->rounded->low[d] - KR_LANES);
+        kr_free(body->rounded->high[d] - KR_PAIR);
+        kr_free(body->rounded->low[d] - KR_PAIR);
     }
     if (body->rounded)
-        kr_free(body->rounded->factor - KR_LANES);
+        kr_free(body->rounded->factor - KR_PAIR);
     kr_free(body->rounded);
 }
 

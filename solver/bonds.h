@@ -15,11 +15,13 @@
  * row's bond vector and weight come from a small table (its `kind`). General: bond vectors come from
  * the positions, 1/|xi| is stored, and rows at the rim of the horizon store their weights.
  *
+ * Lattice slices come by pairs, 2k and 2k + 1, with the same rows: a bond that only one of them has
+ * is a cleared bit in the other. Their lists of rows (offset, kind) stand in memory once, however
+ * many pairs have the same: the bulk of a plate has one. Pairs whose lanes all live are twins, which
+ * the fast loop does without looking at masks.
+ *
  * Lengths and weights are rounded to float32 in both classes, the same from both ends. A bond's e is
  * eta.(2 xi + eta)/|xi|^2 whatever |xi| is: force stays the energy's gradient and rest stays rest.
- *
- * Two slices 2k and 2k + 1 whose rows are whole and alike, as nearly all in the bulk, are twins: the
- * fast loop goes through the rows of one for both.
  *
  * Each node sums its own family in the order of the rows: the same bits for any number of threads.
  */
@@ -33,35 +35,33 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { KR_LANES = 8 };
+enum { KR_LANES = 8, KR_PAIR = 2 * KR_LANES };
 
-/** What the fast loop wants of a kind of lattice bonds, and the same rounded for mixed precision. */
+/** What the fast loop wants of a kind of lattice bonds. A conical micromodulus' share is in `pull`. */
 struct kr_bond_geometry {
-    double xi[3];          /* m */
-    double inverse_square; /* 1/|xi|^2 */
-    double pull;           /* phi V/|xi|:  times c/2 (lambda_i + lambda_j) pull e (xi + eta) */
-    double store;          /* phi V |xi|/2: times c/2 (lambda_i + lambda_j) store e^2 */
-};
-struct kr_bond_geometry32 {
-    float xi[3], inverse_square, pull, store;
+    double xi[3]; /* m */
+    double to_t;  /* scale/|xi|^2, for the argument of the polynomials (fit.h) */
+    double pull;  /* phi V/|xi|^3: times c/2 (lambda_i + lambda_j) pull(t) q (xi + eta) */
 };
 
-/** A kind of lattice bonds: all with the same vector. A conical micromodulus' share is in `pull` and
- *  `store`. */
+/** The same for mixed precision. */
+struct kr_bond_geometry32 {
+    float xi[3], to_t, pull;
+};
+
+/** A kind of lattice bonds: all with the same vector. */
 struct kr_bond_kind {
-    struct kr_bond_geometry geometry;
-    struct kr_bond_geometry32 rounded;
+    double xi[3];  /* m */
     double length; /* |xi|, m */
     double weight; /* phi */
 };
 
 struct kr_bonds {
     int dim;
-    size_t n, n_slices, n_rows;
+    size_t n, n_slices, n_rows, n_listed;
     size_t count;              /* living bonds at the start, each pair counted from both ends */
     struct kr_material material;
-    struct kr_fit fit, fit_mixed; /* fit_mixed: the shorter ones of mixed precision */
-    double flag_above, flag_below; /* e outside of these: the slice takes the exact loop */
+    struct kr_fit fit, fit_mixed; /* outside of their range a slice takes the exact loop */
 
     /* per node; padded arrays of kr_bonds_padded */
     double *x[3];    /* m */
@@ -73,28 +73,32 @@ struct kr_bonds {
     /* per slice */
     unsigned char *lattice;
     unsigned char *twin;   /* ((n_slices + 1) / 2) of each pair of slices; 0 once a bond breaks */
-    size_t *first;         /* (n_slices + 1) of its rows */
+    size_t *first;         /* (n_slices + 1) of its rows in `living` */
+    size_t *list;          /* (n_slices) of its rows in `offset` and `kind` */
     size_t *first_inverse; /* (n_slices + 1) of its 8-tuples in `inverse` */
     size_t *first_weight;  /* (n_slices + 1) of its 8-tuples in `weight` */
 
-    /* per row */
+    uint8_t *living; /* (n_rows) masks */
+
+    /* per listed row, (n_listed) */
     int32_t *offset;
-    uint16_t *kind;  /* lattice: place in `kinds`; general: 1 in the slice's last rows, which store
-                        weights, else 0 */
-    uint8_t *living; /* mask */
+    uint16_t *kind; /* lattice: place in `kinds`; general: 1 in the slice's last rows, which store
+                       weights, else 0 */
 
     float *inverse; /* 1/|xi| [1/m], 8 a general row */
     float *weight;  /* phi, 8 a general row of kind 1 */
     size_t n_kinds;
     struct kr_bond_kind *kinds;
+    struct kr_bond_geometry *geometry;
+    struct kr_bond_geometry32 *geometry32;
 
-    int n_blocks;          /* equal shares of the rows, one a thread */
+    int n_blocks;          /* equal shares of the work, one a thread */
     size_t *block;         /* (n_blocks + 1) first slice of each */
 };
 
 /** One bond as seen from node i. */
 struct kr_bond {
-    size_t row;    /* where its bit is */
+    size_t row;    /* where its bit is in `living` */
     int lane;
     size_t i, j;
     double xi[3];  /* m */
@@ -113,7 +117,7 @@ struct kr_bonds *kr_bonds_create(const struct kr_nodes *nodes, const struct kr_m
                                  int partial_volume);
 void kr_bonds_free(struct kr_bonds *bonds);
 
-/** An array of n doubles with room for a whole slice before and behind, all zero, so that rows may
+/** An array of n doubles with room for a pair of slices before and behind, all zero, so that rows may
  *  load past both ends. Free with kr_bonds_padded_free. */
 double *kr_bonds_padded(size_t n);
 void kr_bonds_padded_free(double *array);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Chebyshev interpolation at the roots of T_n, turned into powers of e. The functions are analytic
+ * Chebyshev interpolation at the roots of T_n, turned into powers of t. The functions are analytic
  * but for s = -1 (e = -1), so n terms leave an error of about rho^-n, rho = 1/R + sqrt(1/R^2 - 1)
- * for a range R: 10 terms at R = 0.05. Powers lose nothing here, for R is small against 1.
+ * for a range of width 2 R: 7 terms at R = 0.04. Powers lose nothing here, for R is small against 1.
  */
 #include "fit.h"
 
@@ -10,7 +10,7 @@
 #include <string.h>
 
 /* Near e = 0 the quotients are 0/0; the series' first term serves there: force(s) -> s = e/2. */
-static const double SMALL = 1e-5;
+static const double SMALL = 1e-4;
 
 static double pull_at(const struct kr_law *law, double e) {
     double s = e / (1 + sqrt(1 + e));
@@ -27,23 +27,29 @@ static double tangent_at(const struct kr_law *law, double e) {
     return (law->stiffness(s) - law->force(s) / (1 + s)) / ((1 + s) * (1 + s));
 }
 
-/* Value of the interpolated function at a Chebyshev root; roots near 0 are shifted by symmetry: the
- * mean of two close points has an error of order SMALL^2. */
+/* Value of the function; near 0 from four places around, which leaves an error of order SMALL^4. */
 static double sample(double (*at)(const struct kr_law *, double), const struct kr_law *law,
                      double e) {
-    if (fabs(e) < SMALL)
-        return 0.5 * (at(law, e + SMALL) + at(law, e - SMALL));
-    return at(law, e);
+    if (fabs(e) >= SMALL)
+        return at(law, e);
+    const double h = 2 * SMALL;
+    return (4 * (at(law, e + h) + at(law, e - h)) - at(law, e + 2 * h) - at(law, e - 2 * h)) / 6;
 }
 
-/* Interpolate at n roots (n even, so that no root is 0) and convert to powers of e. */
-static struct kr_polynomial interpolate(double (*at)(const struct kr_law *, double),
-                                        const struct kr_law *law, double range, int n) {
+typedef double (*function)(const struct kr_law *, double);
+
+static double e_of(const struct kr_fit *fit, double t) {
+    return (t + fit->shift) / fit->scale;
+}
+
+/* Interpolate at n roots and convert to powers of t = 2 x, x being T_n's argument. */
+static struct kr_polynomial interpolate(const struct kr_fit *fit, function at,
+                                        const struct kr_law *law, int n) {
     double value[KR_FIT_TERMS], power[KR_FIT_TERMS] = {0};
     double previous[KR_FIT_TERMS] = {0}, current[KR_FIT_TERMS] = {0}, next[KR_FIT_TERMS];
     for (int k = 0; k < n; k++)
-        value[k] = sample(at, law, range * cos(M_PI * (k + 0.5) / n));
-    current[0] = 1; /* T_0; T_-1 is taken as T_1 = t */
+        value[k] = sample(at, law, e_of(fit, 2 * cos(M_PI * (k + 0.5) / n)));
+    current[0] = 1; /* T_0; T_-1 is taken as T_1 = x */
     previous[1] = 1;
     for (int m = 0; m < n; m++) {
         double weight = 0;
@@ -58,49 +64,53 @@ static struct kr_polynomial interpolate(double (*at)(const struct kr_law *, doub
         memcpy(previous, current, sizeof previous);
         memcpy(current, next, sizeof current);
     }
-    struct kr_polynomial fit = {.terms = n};
+    struct kr_polynomial polynomial = {.terms = n};
     for (int p = 0; p < n; p++)
-        fit.coefficient[p] = power[p] / pow(range, p);
-    return fit;
+        polynomial.coefficient[p] = ldexp(power[p], -p);
+    return polynomial;
 }
 
-static double value_of(const struct kr_polynomial *p, double e) {
+static double value_of(const struct kr_polynomial *p, double t) {
     double sum = 0;
     for (int k = p->terms - 1; k >= 0; k--)
-        sum = sum * e + p->coefficient[k];
+        sum = sum * t + p->coefficient[k];
     return sum;
 }
 
-static double error_of(const struct kr_polynomial *p, double (*at)(const struct kr_law *, double),
-                       const struct kr_law *law, double range) {
+static double error_of(const struct kr_fit *fit, const struct kr_polynomial *p, function at,
+                       const struct kr_law *law) {
     double worst = 0;
     for (int k = -20; k <= 20; k++) {
-        double e = range * (k + 0.37) / 20.37, exact = at(law, e);
-        worst = fmax(worst, fabs(value_of(p, e) / exact - 1));
+        double t = 2 * (k + 0.37) / 20.37, exact = sample(at, law, e_of(fit, t));
+        worst = fmax(worst, fabs(value_of(p, t) / exact - 1));
     }
     return worst;
 }
 
-static struct kr_polynomial fit_one(double (*at)(const struct kr_law *, double),
-                                    const struct kr_law *law, double range, double enough) {
+static struct kr_polynomial fit_one(const struct kr_fit *fit, function at, const struct kr_law *law,
+                                    double enough) {
     int n = 4;
-    struct kr_polynomial fit = interpolate(at, law, range, n);
-    while (n + 2 <= KR_FIT_TERMS && error_of(&fit, at, law, range) > enough) {
-        n += 2;
-        struct kr_polynomial better = interpolate(at, law, range, n);
-        if (error_of(&better, at, law, range) >= error_of(&fit, at, law, range))
+    struct kr_polynomial best = interpolate(fit, at, law, n);
+    while (n < KR_FIT_TERMS && error_of(fit, &best, at, law) > enough) {
+        struct kr_polynomial better = interpolate(fit, at, law, ++n);
+        if (error_of(fit, &better, at, law) >= error_of(fit, &best, at, law))
             break; /* rounding is reached */
-        fit = better;
+        best = better;
     }
-    return fit;
+    return best;
 }
 
-struct kr_fit kr_fit_make(const struct kr_material *material, double enough) {
-    double s0 = material->critical_stretch;
-    double critical = isfinite(s0) ? s0 * (2 + s0) : 0.1;
-    struct kr_fit fit = {.range = fmin(fmax(1.001 * critical, 0.02), 0.5)};
-    fit.pull = fit_one(pull_at, material->law, fit.range, enough);
-    fit.store = fit_one(store_at, material->law, fit.range, enough);
-    fit.tangent = interpolate(tangent_at, material->law, fit.range, fit.pull.terms);
+struct kr_fit kr_fit_make(const struct kr_material *material, double enough, double early) {
+    const double s0 = material->critical_stretch;
+    struct kr_fit fit = {.above = 0.1, .below = -0.1};
+    if (isfinite(s0)) {
+        fit.above = fmin(s0 * (2 + s0), 0.5) * (1 - early);
+        fit.below = -fmin(fmax(0.6 * fit.above, 0.02), 0.5);
+    }
+    fit.scale = 4 / (fit.above - fit.below);
+    fit.shift = 2 * (fit.above + fit.below) / (fit.above - fit.below);
+    fit.pull = fit_one(&fit, pull_at, material->law, enough);
+    fit.store = fit_one(&fit, store_at, material->law, enough);
+    fit.tangent = interpolate(&fit, tangent_at, material->law, fit.pull.terms);
     return fit;
 }

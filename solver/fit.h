@@ -9,7 +9,9 @@
  *    store(e)   = energy(s) / e^2          so that  w = c |xi| store e^2
  *    tangent(e) = 2 d(pull e)/de = (force'(s) - force(s)/(1 + s)) / (1 + s)^2
  *
- * All are smooth for |e| <= range, where Chebyshev interpolation converges to rounding.
+ * All are smooth for below <= e <= above, where Chebyshev interpolation converges to rounding. They are
+ * polynomials in t = scale e - shift, which is between -2 and 2 there: a number of 2 or more shows in
+ * one bit of its exponent, so that the fast loop sees with one operation that e left the range.
  */
 #ifndef KR_FIT_H
 #define KR_FIT_H
@@ -18,25 +20,26 @@
 
 enum { KR_FIT_TERMS = 32 };
 
-/** A polynomial in e, lowest power first. */
+/** A polynomial in t, lowest power first. */
 struct kr_polynomial {
     int terms;
     double coefficient[KR_FIT_TERMS];
 };
 
-/** The polynomials of a material and where they hold: -range <= e <= range. */
+/** The polynomials of a material and where they hold: below < e < above. */
 struct kr_fit {
-    double range;
+    double below, above, scale, shift;         /* t = scale e - shift */
     struct kr_polynomial pull, store, tangent; /* tangent has as many terms as pull */
 };
 
 /** What a fit's relative error may be. Bond lengths are rounded to 6e-8 (bonds.h); float32 rounds each
- *  step of the arithmetic by as much. Each two terms more cost an eighth of the time. */
+ *  step of the arithmetic by as much. Each term more costs a sixteenth of the time. */
 static const double KR_FIT_DOUBLE = 1e-12, KR_FIT_MIXED = 5e-7;
 
-/** Fit a material's law to a relative error below `enough` where KR_FIT_TERMS terms allow it. `range`
- *  reaches just past the critical stretch, but at least to 0.02 (bonds may be pressed harder than
- *  they may be pulled) and at most to 0.5: outside, the loop takes the law itself. */
-struct kr_fit kr_fit_make(const struct kr_material *material, double enough);
+/** Fit a material's law to a relative error below `enough` where KR_FIT_TERMS terms allow it. It ends at
+ *  (1 - early) times the critical stretch's e, or at 0.5 or 0.1 (no critical stretch). Brittle bodies
+ *  are pressed less than they are pulled: to that side it reaches 0.6 as far, but at least 0.02.
+ *  Outside, the loop takes the law itself. */
+struct kr_fit kr_fit_make(const struct kr_material *material, double enough, double early);
 
 #endif

@@ -8,7 +8,7 @@
 #include "bonds.h"
 
 /** Node values as mixed precision reads them: u is high + low to 48 bits. Arrays with room for a
- *  whole slice before and behind, as those of kr_bonds_padded. */
+ *  pair of slices before and behind, as those of kr_bonds_padded. */
 struct kr_rounded {
     float *high[3], *low[3]; /* m */
     float *factor;           /* lambda */

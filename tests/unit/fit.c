@@ -6,10 +6,10 @@
 
 #include "fit.h"
 
-static double value(const struct kr_polynomial *p, double e) {
+static double value(const struct kr_polynomial *p, double t) {
     double sum = 0;
     for (int k = p->terms - 1; k >= 0; k--)
-        sum = sum * e + p->coefficient[k];
+        sum = sum * t + p->coefficient[k];
     return sum;
 }
 
@@ -21,21 +21,23 @@ static double stretch(double e) {
 
 static void check_fit(const struct kr_law *law, double s0) {
     struct kr_material m = {.law = law, .critical_stretch = s0};
-    struct kr_fit fit = kr_fit_make(&m, KR_FIT_DOUBLE);
+    struct kr_fit fit = kr_fit_make(&m, KR_FIT_DOUBLE, 1e-12);
     double pull = 0, store = 0, tangent = 0;
-    assert_true(fit.range >= 0.02 && fit.range <= 0.5);
-    if (isfinite(s0) && s0 * (2 + s0) < 0.49)
-        assert_true(fit.range > s0 * (2 + s0)); /* bonds are still inside when they break */
+    assert_true(fit.below <= -0.02 && fit.below >= -0.5 && fit.above <= 0.5);
+    if (isfinite(s0) && s0 * (2 + s0) < 0.49) /* no bond past s0 goes unseen */
+        assert_true(fit.above < s0 * (2 + s0) && fit.above > 0.999999 * s0 * (2 + s0));
+    kr_check_near(fit.scale * fit.above - fit.shift, 2, 1e-14);
+    kr_check_near(fit.scale * fit.below - fit.shift, -2, 1e-14);
     for (int k = -1000; k <= 1000; k++) {
-        double e = fit.range * (k + 0.113) / 1000.2, s = stretch(e);
-        pull = fmax(pull, fabs(value(&fit.pull, e) * (1 + s) * e / law->force(s) - 1));
-        store = fmax(store, fabs(value(&fit.store, e) * e * e / law->energy(s) - 1));
+        double t = 2 * (k + 0.113) / 1000.2, e = (t + fit.shift) / fit.scale, s = stretch(e);
+        pull = fmax(pull, fabs(value(&fit.pull, t) * (1 + s) * e / law->force(s) - 1));
+        store = fmax(store, fabs(value(&fit.store, t) * e * e / law->energy(s) - 1));
         double slope = (law->stiffness(s) - law->force(s) / (1 + s)) / ((1 + s) * (1 + s));
-        tangent = fmax(tangent, fabs(value(&fit.tangent, e) - slope));
+        tangent = fmax(tangent, fabs(value(&fit.tangent, t) - slope));
     }
-    kr_figure("%s s0 %-6.4g: range %.3f, %d and %d terms, pull off by %.1e, energy by %.1e, "
+    kr_figure("%s s0 %-6.4g: range %.3f to %.3f, %d and %d terms, pull off by %.1e, energy by %.1e, "
               "tangent by %.1e",
-              law->name, s0, fit.range, fit.pull.terms, fit.store.terms, pull, store, tangent);
+              law->name, s0, fit.below, fit.above, fit.pull.terms, fit.store.terms, pull, store, tangent);
     /* What fit.h promises, found there at 41 places and here at 2001. */
     kr_check_near(pull, 0, 1.1e-12);
     kr_check_near(store, 0, 1.1e-12);
