@@ -373,8 +373,8 @@ static void what_cannot_be_written_stops(void **unused) {
     (void)unused;
     struct kr_mesh *mesh = sample();
     char *path = path_of("full.msh");
-    kr_check_stops(write_nowhere, mesh, 3, "/nowhere/plate.msh.part cannot be written");
-    kr_check_stops(write_to_a_full_disk, mesh, 3, "full.msh cannot be written: No space left");
+    kr_check_stops(write_nowhere, mesh, 3, "/nowhere/plate.msh.tmp: cannot be written");
+    kr_check_stops(write_to_a_full_disk, mesh, 3, "full.msh: cannot be written: No space left");
     assert_int_not_equal(access(path, F_OK), 0);
     kr_free(path);
     kr_mesh_free(mesh);
