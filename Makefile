@@ -16,6 +16,8 @@
 #   make oracle     what development checks against PETSc and VTK, where they are installed
 #   make equilibrium  measure the static solver at three sizes, up to 780 000 nodes
 #   make free-grid  measure the free grid at three sizes (the table in docs/grids.md)
+#   make bench-read time the reader of gmsh's meshes
+#   make node-order  time the loop over bonds with nodes in rows, by METIS, along curves, ...
 #   make lloyd-solid  measure what Lloyd's steps would gain in space (a table in docs/grids.md)
 #   make soak       leave a run alone for two hours (HOURS=), and ask what became of it
 #   make docs       write docs/deck.md anew from the table that reads the deck
@@ -80,8 +82,8 @@ KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 $(foreach k,$(kernels),$(eval KERNEL_$(k)_mixed := $(KERNEL_$(k)) -DKR_FLOAT))
 
-.PHONY: FORCE all help demo study test fuzz oracle bench deps corrections pores-500 equilibrium free-grid lloyd-solid \
-        bar soak validate $(cases) \
+.PHONY: FORCE all help demo study test fuzz oracle bench bench-read node-order deps corrections pores-500 equilibrium \
+        free-grid lloyd-solid bar soak validate $(cases) \
         docs format install clean check-deps sbom
 all: check-deps $(programs) $(scripts)
 
@@ -157,6 +159,14 @@ $(BUILD)/corrections: $(BUILD)/cases/corrections/corrections.o $(BUILD)/libkirsc
 	@echo "  link  $(@F)"
 	$(Q)$(CC) $(CFLAGS) -fopenmp $^ $(LIBS) -o $@
 
+$(BUILD)/read: $(BUILD)/cases/bench/read.o $(BUILD)/libkirsch.a
+	@echo "  link  $(@F)"
+	$(Q)$(CC) $(CFLAGS) -fopenmp $^ $(LIBS) -o $@
+
+$(BUILD)/order: $(BUILD)/cases/node-order/order.o $(BUILD)/libkirsch.a
+	@echo "  link  $(@F)"
+	$(Q)$(CC) $(CFLAGS) -fopenmp $^ $(LIBS) -o $@
+
 $(BUILD)/bar: $(BUILD)/cases/bar/bar.o $(BUILD)/libkirsch.a
 	@echo "  link  $(@F)"
 	$(Q)$(CC) $(CFLAGS) -fopenmp $^ $(LIBS) -o $@
@@ -217,6 +227,12 @@ pores-500: all $(BUILD)/fields
 bar: all $(BUILD)/bar
 	@BUILD=$(BUILD) cases/bar/table
 
+bench-read: all $(BUILD)/read
+	@BUILD=$(BUILD) cases/bench/meshes
+
+node-order: all $(BUILD)/order
+	@BUILD=$(BUILD) cases/node-order/table
+
 equilibrium: all $(BUILD)/plain
 	@BUILD=$(BUILD) cases/equilibrium/table
 
@@ -257,4 +273,5 @@ clean:
 	rm -rf $(BUILD)
 
 -include $(library_o:.o=.d) $(kernel_o:.o=.d) $(patsubst %.c,$(BUILD)/%.d,$(programs_c)) $(tests:=.d) \
-         $(BUILD)/cases/corrections/corrections.d $(BUILD)/cases/pores-500/fields.d $(BUILD)/cases/bar/bar.d $(BUILD)/cases/lloyd-solid/lloyd.d
+         $(BUILD)/cases/node-order/order.d $(BUILD)/cases/bench/read.d $(BUILD)/cases/lloyd-solid/lloyd.d \
+         $(BUILD)/cases/corrections/corrections.d $(BUILD)/cases/pores-500/fields.d $(BUILD)/cases/bar/bar.d

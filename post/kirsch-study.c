@@ -11,6 +11,7 @@
 
 #include "base/child.h"
 #include "base/error.h"
+#include "base/file.h"
 #include "base/memory.h"
 #include "study.h"
 #include "study_report.h"
@@ -68,21 +69,6 @@ static void take_own_arguments(struct job *job) {
         kr_stop(KR_EXIT_INPUT, "the deck is missing: kirsch-study %s case.yaml",
                 job->arguments.deck);
     job->plan.check = job->arguments.check;
-}
-
-/* A folder and those above it. */
-static void make_folder(const char *path) {
-    char *part = kr_text_copy(path);
-    for (char *slash = strchr(part + 1, '/');; slash = strchr(slash + 1, '/')) {
-        if (slash)
-            *slash = 0;
-        if (mkdir(part, 0777) && errno != EEXIST)
-            kr_stop(KR_EXIT_STORAGE, "the folder %s cannot be made: %s", part, strerror(errno));
-        if (!slash)
-            break;
-        *slash = '/';
-    }
-    kr_free(part);
 }
 
 /* What each run would be, as commands. */
@@ -149,7 +135,7 @@ static int run_study(const struct job *job, struct kr_study *study) {
     if (job->plan.only > study->n_runs)
         kr_stop(KR_EXIT_INPUT, "--row: found %zu, expected 1 to %zu", job->plan.only,
                 study->n_runs);
-    make_folder(study->folder);
+    kr_folder_make(study->folder);
     if (!job->gather)
         kr_study_run_all(study, &job->plan);
     if (job->plan.only || job->plan.check)

@@ -15,6 +15,7 @@
 
 #include "base/child.h"
 #include "base/error.h"
+#include "base/file.h"
 #include "base/memory.h"
 #include "study_run.h"
 #include "csv.h"
@@ -162,18 +163,11 @@ static void put_run(FILE *file, const struct kr_study *study, const struct kr_st
 }
 
 void kr_study_report(const struct kr_study *study) {
-    char *path = kr_text("%s/study.csv", study->folder), *beside = kr_text("%s.tmp", path);
-    FILE *file = fopen(beside, "w");
-    if (!file)
-        kr_stop(KR_EXIT_STORAGE, "%s cannot be written: %s", beside, strerror(errno));
-    put_header(file, study);
+    struct kr_file file = kr_file_begin(kr_text("%s/study.csv", study->folder));
+    put_header(file.to, study);
     for (size_t r = 0; r < study->n_runs; r++)
-        put_run(file, study, &study->run[r]);
-    int failed = fflush(file) || ferror(file) || fsync(fileno(file));
-    if (fclose(file) || failed || rename(beside, path))
-        kr_stop(KR_EXIT_STORAGE, "%s cannot be written: %s", path, strerror(errno));
-    kr_free(beside);
-    kr_free(path);
+        put_run(file.to, study, &study->run[r]);
+    kr_file_end(&file);
 }
 
 /* ---- Slurm --------------------------------------------------------------------------------- */

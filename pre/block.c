@@ -53,36 +53,41 @@ static double enclosed(const struct kr_mesh *mesh) {
     return (six + lost) / 6;
 }
 
-/** Largest distance of a face's corners and middle from a surface, in spacings. */
-static double face_off(const struct kr_mesh *mesh, const struct kr_cutter *cutter, double dx, size_t face) {
+/** Distance of a place [spacings] from the nearest surface. */
+static double off_surfaces(const struct kr_block_body *body, const double p[3]) {
+    double least = INFINITY;
+    for (size_t c = 0; c < body->n_cutters; c++)
+        least = fmin(least, fabs(kr_cutter_at(&body->cutter[c], p, NULL)));
+    return least;
+}
+
+/** The largest of a face's corners and middle. */
+static double face_off(const struct kr_mesh *mesh, const struct kr_block_body *body, size_t face) {
     size_t from = mesh->face_first[face], n = mesh->face_first[face + 1] - from;
     double middle[3] = {0}, most = 0;
     for (size_t v = 0; v < n; v++) {
         double corner[3];
         for (int d = 0; d < 3; d++) {
-            corner[d] = mesh->point[3 * mesh->face[from + v] + (size_t)d] / dx;
+            corner[d] = mesh->point[3 * mesh->face[from + v] + (size_t)d] / body->spacing;
             middle[d] += corner[d] / (double)n;
         }
-        most = fmax(most, fabs(kr_cutter_at(cutter, corner, NULL)));
+        most = fmax(most, off_surfaces(body, corner));
     }
-    return fmax(most, fabs(kr_cutter_at(cutter, middle, NULL)));
+    return fmax(most, off_surfaces(body, middle));
 }
 
-/** The same of all faces that stand for the surface. */
+/** Largest distance of the faces of voids, holes and outlines from the nearest surface. Where two surfaces meet,
+ *  a facet may lie between them: it belongs to one and is held against both. */
 static double conformity_of(const struct kr_mesh *mesh, const struct kr_block_body *body) {
-    double most = 0, dx = body->spacing;
-    for (size_t c = 0; c < body->n_cutters; c++) {
-        const struct kr_cutter *cutter = &body->cutter[c];
-        int is_plate = cutter->kind == KR_CUTTER_PLATE; /* its curves have groups of their own */
-        size_t from = is_plate ? KR_OUTLINE_SIDES : (size_t)cutter->group;
-        size_t to = is_plate ? body->flat.n_groups : from + 1;
-        for (size_t g = from; g < to; g++) {
-            const struct kr_mesh_group *group = kr_mesh_group(mesh, body->group[g], 2);
-            for (size_t k = 0; group && k < group->count; k++)
-                most = fmax(most, face_off(mesh, cutter, dx, group->member[k]));
-        }
+    double most = 0;
+    for (int g = KR_OUTLINE_SIDES; g < (int)body->n_groups; g++) {
+        const struct kr_mesh_group *group = kr_mesh_group(mesh, body->group[g], 2);
+        if (g == body->side[4] || g == body->side[5])
+            continue;
+        for (size_t k = 0; group && k < group->count; k++)
+            most = fmax(most, face_off(mesh, body, group->member[k]));
     }
-    return most * dx;
+    return most * body->spacing;
 }
 
 /** A solid whose lattice is cut by surfaces. */

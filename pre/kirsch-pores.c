@@ -3,6 +3,7 @@
  * kirsch-pores: random pores for a plate, or those of a file.
  */
 #include "base/error.h"
+#include "base/file.h"
 #include "base/memory.h"
 #include "pores.h"
 
@@ -54,18 +55,12 @@ static void write_hole(FILE *file, const struct kr_case_hole *hole, const double
 
 static void write_pores(const struct kr_case *c, const struct kr_case_hole *hole, const double *z,
                         size_t n, const char *path) {
-    char *beside = kr_text("%s.tmp", path), *rules = rules_of(c);
-    FILE *file = fopen(beside, "w");
-    if (!file)
-        kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", beside, strerror(errno));
-    fputs(rules, file);
+    struct kr_file file = kr_file_begin(kr_text_copy(path));
+    char *rules = rules_of(c);
+    fputs(rules, file.to);
     for (size_t k = 0; k < n; k++)
-        write_hole(file, &hole[k], c->pores.shape == KR_PORE_SPHERE ? &z[k] : NULL);
-    int failed = ferror(file) | fclose(file);
-    if (failed || rename(beside, path))
-        kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s; free some space and run again", path,
-                strerror(errno));
-    kr_free(beside);
+        write_hole(file.to, &hole[k], c->pores.shape == KR_PORE_SPHERE ? &z[k] : NULL);
+    kr_file_end(&file);
     kr_free(rules);
 }
 

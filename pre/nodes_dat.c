@@ -5,6 +5,7 @@
 #include "nodes_dat.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/memory.h"
 #include "convert.h"
 
@@ -103,16 +104,9 @@ struct kr_nodes *kr_nodes_dat_read(const char *path) {
 }
 
 void kr_nodes_dat_write(const struct kr_nodes *nodes, const char *path) {
-    char *beside = kr_text("%s.tmp", path);
-    FILE *file = fopen(beside, "w");
-    if (!file)
-        kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", beside, strerror(errno));
+    struct kr_file file = kr_file_begin(kr_text_copy(path));
     for (size_t i = 0; i < nodes->n; i++)
-        fprintf(file, "%lld %.17g %.17g %.17g\n", (long long)nodes->tag[i], nodes->volume[i],
+        fprintf(file.to, "%lld %.17g %.17g %.17g\n", (long long)nodes->tag[i], nodes->volume[i],
                 nodes->position[2 * i], nodes->position[2 * i + 1]);
-    int failed = ferror(file) | fclose(file);
-    if (failed || rename(beside, path))
-        kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s; free some space and run again", path,
-                strerror(errno));
-    kr_free(beside);
+    kr_file_end(&file);
 }

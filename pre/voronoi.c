@@ -162,6 +162,8 @@ static size_t set_more(struct voronoi *v, size_t own, int pass) {
 /** One pass over all cells: Lloyd's step where asked for. Returns how many seeds were set. */
 static size_t step(struct voronoi *v, int moves, int pass) {
     size_t n = v->seeds.n, set = 0;
+    if (!n)
+        return 0; /* all edges lie on the lattice */
     double(*to)[2] = kr_alloc(n, sizeof *to);
     memcpy(to, v->seeds.place, n * sizeof *to);
     for (size_t s = 0; s < n; s++) {

@@ -3,8 +3,8 @@
  * Writing Abaqus' keywords (CalculiX 2.20 manual, chapter 7). See inp.h.
  */
 #include "base/error.h"
+#include "base/file.h"
 #include "base/memory.h"
-#include "file.h"
 #include "inp.h"
 
 #include <stdio.h>

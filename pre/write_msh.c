@@ -9,6 +9,7 @@
 #include "mesh.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/memory.h"
 #include "element.h"
 
@@ -247,10 +248,8 @@ static void write_elements(const struct kr_mesh *mesh, const struct classes *fac
 }
 
 void kr_mesh_write_msh(const struct kr_mesh *mesh, const char *path) {
-    char *part = kr_text("%s.part", path);
-    FILE *file = fopen(part, "wb");
-    if (!file)
-        kr_stop(KR_EXIT_STORAGE, "%s cannot be written: %s", part, strerror(errno));
+    struct kr_file whole = kr_file_begin(kr_text_copy(path));
+    FILE *file = whole.to;
     struct classes facets = classify(mesh, mesh->dim - 1), cells = classify(mesh, mesh->dim);
     fprintf(file, "$MeshFormat\n4.1 1 8\n");
     put_int(file, 1); /* tells a reader the order of bytes */
@@ -259,13 +258,7 @@ void kr_mesh_write_msh(const struct kr_mesh *mesh, const char *path) {
     write_entities(mesh, &facets, &cells, file);
     write_nodes(mesh, &cells, file);
     write_elements(mesh, &facets, &cells, file);
-    int failed = ferror(file) || fflush(file) || fsync(fileno(file));
-    if (fclose(file) || failed || rename(part, path)) {
-        int why = errno;
-        unlink(part);
-        kr_stop(KR_EXIT_STORAGE, "%s cannot be written: %s", path, strerror(why));
-    }
+    kr_file_end(&whole);
     free_classes(&facets);
     free_classes(&cells);
-    kr_free(part);
 }

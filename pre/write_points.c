@@ -4,8 +4,8 @@
  */
 #include "points.h"
 
+#include "base/file.h"
 #include "base/memory.h"
-#include "file.h"
 
 #include <stdio.h>
 #include <stdlib.h>

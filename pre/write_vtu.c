@@ -6,8 +6,8 @@
 #include "vtu.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/memory.h"
-#include "file.h"
 
 #include <stdio.h>
 #include <string.h>

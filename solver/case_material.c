@@ -16,7 +16,7 @@
 static const double fastest_wave = 25e3;
 
 /* The law is one of small strains, as is the calibration of s0: (6). Brittle solids have 1e-4 to 2e-2. */
-static const double largest_stretch = 0.25;
+static const double largest_stretch = 0.1;
 
 static void check_law(struct kr_deck *deck, const struct kr_case *c) {
     char known[256] = "";

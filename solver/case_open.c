@@ -3,15 +3,14 @@
  * From the command line to a case: arguments, deck, folder.
  */
 #include "base/error.h"
+#include "base/file.h"
 #include "base/memory.h"
 #include "base/provenance.h"
 #include "case.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 /* ---- arguments ---- */
 
@@ -134,24 +133,6 @@ static char *default_folder(const struct kr_deck *deck) {
     return folder;
 }
 
-static void make_folder(const char *path) {
-    char *part = kr_text_copy(path);
-    for (char *slash = part + 1;; slash++) {
-        slash += strcspn(slash, "/");
-        int last = !*slash;
-        *slash = 0;
-        if (mkdir(part, 0777) && errno != EEXIST)
-            kr_stop(KR_EXIT_STORAGE, "the folder %s cannot be made: %s", part, strerror(errno));
-        if (last)
-            break;
-        *slash = '/';
-    }
-    struct stat about;
-    if (stat(path, &about) || !S_ISDIR(about.st_mode))
-        kr_stop(KR_EXIT_STORAGE, "%s, where results are to go, is no folder", path);
-    kr_free(part);
-}
-
 struct kr_deck *kr_case_open(const struct kr_case_arguments *arguments, struct kr_case *out) {
     memset(out, 0, sizeof *out);
     struct kr_deck *deck =
@@ -171,7 +152,7 @@ struct kr_deck *kr_case_open(const struct kr_case_arguments *arguments, struct k
     else if (!out->folder || !*out->folder)
         out->folder = kr_deck_keep(deck, default_folder(deck));
     if (!arguments->explain)
-        make_folder(out->folder);
+        kr_folder_make(out->folder);
     return deck;
 }
 

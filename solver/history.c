@@ -6,6 +6,7 @@
 #include "history.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/memory.h"
 
 #include <errno.h>
@@ -92,12 +93,7 @@ struct kr_history *kr_history_open(const char *path, struct kr_boundary *const *
     *h = (struct kr_history){
         .path = kr_text_copy(path), .dim = dim, .stages = stages, .boundary = boundary, .probes = probes};
     find_columns(h);
-    if (bytes > 0 && truncate(path, bytes))
-        kr_stop(KR_EXIT_STORAGE, "%s: cannot be cut back to %ld bytes: %s", path, bytes,
-                strerror(errno));
-    h->file = fopen(path, bytes > 0 ? "r+" : "w");
-    if (!h->file || fseek(h->file, bytes, SEEK_SET))
-        kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", path, strerror(errno));
+    h->file = kr_file_grow(path, bytes);
     if (bytes == 0)
         write_header(h);
     check_written(h);

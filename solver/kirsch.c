@@ -7,6 +7,7 @@
  * time, and the version of Kirsch. Files edited by hand are thus inputs of the steps behind them.
  */
 #include "base/error.h"
+#include "base/file.h"
 #include "base/memory.h"
 #include "base/provenance.h"
 #include "case.h"
@@ -189,19 +190,17 @@ static int is_up_to_date(const struct job *job, const struct step *step) {
 
 static void write_stamp(const struct job *job, const struct step *step, const char *suffix) {
     char *path = stamp_path(job, step, suffix);
-    FILE *file = fopen(path, "w");
-    if (!file || fprintf(file, "%016" PRIx64 "\n", stamp_of(job, step)) < 0 || fclose(file))
-        kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", path, strerror(errno));
-    kr_free(path);
+    struct kr_file file = kr_file_begin(path);
+    fprintf(file.to, "%016" PRIx64 "\n", stamp_of(job, step));
+    kr_file_end(&file);
 }
 
 /* One kirsch at a time works in a folder. The lock is handed down to the steps, so that it is held
    until the last of them has ended, also where this program was killed before. */
 static void lock_folder(const struct job *job) {
     char *folder = kr_case_file(&job->c, ".steps"), *path = kr_case_file(&job->c, ".steps/lock");
-    if (mkdir(folder, 0777) && errno != EEXIST)
-        kr_stop(KR_EXIT_STORAGE, "%s: cannot be made: %s", folder, strerror(errno));
-    int lock = open(path, O_RDWR | O_CREAT, 0666);
+    kr_folder_make_within(folder);
+    int lock = open(path, O_RDWR | O_CREAT | O_NOFOLLOW, 0666);
     if (lock < 0)
         kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", path, strerror(errno));
     if (flock(lock, LOCK_EX | LOCK_NB) && errno == EWOULDBLOCK) {

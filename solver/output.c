@@ -5,6 +5,7 @@
 #include "output.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/h5.h"
 #include "base/memory.h"
 #include "base/provenance.h"
@@ -128,8 +129,7 @@ static void find_due(struct kr_output *o, double dt, long steps) {
 /* Make the folder, and take out what an older run left there: *.h5 and nothing else. */
 static void clear_folder(const struct kr_case *c, int keep) {
     char *folder = kr_case_file(c, "run");
-    if (mkdir(folder, 0777) && errno != EEXIST)
-        kr_stop(KR_EXIT_STORAGE, "%s: cannot be made: %s", folder, strerror(errno));
+    kr_folder_make_within(folder);
     DIR *listing = opendir(folder);
     struct dirent *entry;
     while (listing && !keep && (entry = readdir(listing))) {

@@ -6,6 +6,7 @@
 #include "sites.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/memory.h"
 
 #include <errno.h>
@@ -89,12 +90,7 @@ struct kr_sites *kr_sites_create(const struct kr_case *c, const struct kr_bonds 
         middle_of(s, crack->pair + 2 * k, cell, x);
         s->count += (size_t)is_new(s, cell);
     }
-    if (bytes > 0 && truncate(s->path, bytes))
-        kr_stop(KR_EXIT_STORAGE, "%s: cannot be cut back to %ld bytes: %s", s->path, bytes,
-                strerror(errno));
-    s->file = fopen(s->path, bytes > 0 ? "r+" : "w");
-    if (!s->file || fseek(s->file, bytes, SEEK_SET))
-        kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", s->path, strerror(errno));
+    s->file = kr_file_grow(s->path, bytes);
     if (bytes == 0)
         fprintf(s->file, "site,stage,step,time [s],stage_time [s],x [m],y [m]%s\n",
                 bonds->dim == 3 ? ",z [m]" : "");

@@ -6,6 +6,7 @@
 #include "xdmf.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/memory.h"
 #include "quantity.h"
 
@@ -46,18 +47,12 @@ static void write_step(FILE *file, const struct kr_nodes *nodes, size_t corners,
 
 void kr_xdmf_write(const char *path, const struct kr_nodes *nodes, size_t corners,
                    struct kr_xdmf_fields fields, size_t n_steps, const struct kr_xdmf_step *step) {
-    char *beside = kr_text("%s.tmp", path);
-    FILE *file = fopen(beside, "w");
-    if (!file)
-        kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", beside, strerror(errno));
+    struct kr_file whole = kr_file_begin(kr_text_copy(path));
+    FILE *file = whole.to;
     fprintf(file, "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n <Domain>\n"
                   "  <Grid Name=\"run\" GridType=\"Collection\" CollectionType=\"Temporal\">\n");
     for (size_t k = 0; k < n_steps; k++)
         write_step(file, nodes, corners, fields, step[k]);
     fprintf(file, "  </Grid>\n </Domain>\n</Xdmf>\n");
-    int failed = ferror(file) | fclose(file);
-    if (failed || rename(beside, path))
-        kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s; free some space and run again", path,
-                strerror(errno));
-    kr_free(beside);
+    kr_file_end(&whole);
 }

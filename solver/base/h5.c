@@ -124,6 +124,8 @@ struct kr_h5 *kr_h5_create(const char *path, const char *format, int64_t version
     char *beside = kr_text("%s.tmp", path);
     hid_t id;
     kr_h5_quiet();
+    unlink(beside); /* left by a run that was killed; a link there is not followed */
+    errno = 0;
     id = H5Fcreate(beside, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
     if (id < 0)
         kr_stop(KR_EXIT_STORAGE, "cannot create %s: %s", beside,

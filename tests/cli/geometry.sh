@@ -42,7 +42,7 @@ Save "plate.step";
 GEO
 printf 'SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 40, 20, 3}; Save "solid.step";\n' >"$work/solid.geo"
 (cd "$work" && gmsh -0 plate.geo -v 1 && gmsh -0 solid.geo -v 1) >"$work/gmsh.log" 2>&1
-mesh() { "$build/kirsch-mesh" --output "$work/$1" "$work/case.yaml" $2 $3 $4 $5; }
+mesh() { into=$1; shift; "$build/kirsch-mesh" --output "$work/$into" "$work/case.yaml" "$@"; }
 pores() { into=$1; shift; "$build/kirsch-pores" --output "$work/$into" "$@" "$work/porous.yaml"; }
 
 step_faces_are_outlines() {
@@ -60,6 +60,20 @@ step_areas_are_right() {
     echo "# figure area of a free curve in a STEP file: $spline mm^2"
     wanted=$(cat "$work/spline")
     awk "BEGIN { exit !(($spline - $wanted)^2 < (25*2e-5)^2) }"
+}
+# Flat and extruded, on all grids: the cells have the area of the exact curves, or, of staircases, about it.
+step_files_on_every_grid() {
+    for grid in uniform near-boundary free voronoi; do
+        for body in plate solid; do
+            set -- --set mesh.grid=$grid --set mesh.spacing='0.5 mm' --set nodes.horizon='1.5 mm'
+            [ $body = solid ] && set -- "$@" --set geometry.depth='2 mm' --set material.model=solid
+            mesh step "$@" >"$work/report" || return
+            cat "$work/report"
+            off=$(sed -n 's/.* by \([-0-9.e+]*\) from the \(exact curves\|true surfaces\)$/\1/p' "$work/report")
+            awk "BEGIN { exit !(\"$off\" != \"\" && ($off)^2 < (\"$grid\" == \"uniform\" ? 0.01 : 1e-12)^2) }" ||
+                { echo "$grid, $body: off by $off"; return 1; }
+        done
+    done
 }
 solids_and_missing_files_stop() {
     stops 2 "solid.step: the file holds a solid" mesh bad --set geometry.outline.file=solid.step &&
@@ -114,7 +128,7 @@ awk '/^curve other/ { free = 1; n = 0; next } /^[a-z]/ { free = 0 }
            print (sum < 0 ? -sum : sum)*span*h/3*1e6 }' span="$(awk '/^curve other/ { print $4 }' "$work/curves")" \
     "$work/curves" >"$work/spline"
 
-for name in step_faces_are_outlines step_areas_are_right solids_and_missing_files_stop \
+for name in step_faces_are_outlines step_areas_are_right step_files_on_every_grid solids_and_missing_files_stop \
     porosity_is_met pores_stay_in_the_ring ellipses_have_their_aspect \
     what_cannot_be_met_says_how_far_it_got pores_of_the_papers_file_are_taken; do
     check $name $name

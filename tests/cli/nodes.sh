@@ -392,6 +392,9 @@ rank[0][p] = rank[1][q] = np.arange(len(p))
 for name in sys.argv[3].split():
     a, b = sorted(rank[0][one["sets"][name][:]]), sorted(rank[1][two["sets"][name][:]])
     assert a == b, f"{name}: {len(a)} and {len(b)} nodes"
+assert sys.argv[4] != "vtu" or sorted(two["sets"]) == sorted(sys.argv[3].split()), list(two["sets"])
+if sys.argv[4] == "vtu":
+    assert (one["nodes/tag"][:][p] == two["nodes/tag"][:][q]).all()
 PY
 }
 there_and_back() { # NAME FORMAT SETS ENDING [SET FILE...]
@@ -576,7 +579,7 @@ cut_files() { # file
         fi
     done
 }
-for file in p_unv.unv plate_m.vtu hexes.e plate_m.med p_inp.inp bodies.cdb; do
+for file in p_unv.unv plate_m.vtu hexes.e plate_m.med p_inp.inp bodies.cdb plate_m.vtk plate_m.xdmf; do
     check cut_${file##*.} cut_files $file
 done
 echo "1..$count"

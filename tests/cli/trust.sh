@@ -25,9 +25,10 @@ nodes() {
 # The undisturbed run, and a folder with nodes alone.
 begin() {
     nodes || return
+    rm -rf "$work/now"
     [ -d "$work/whole" ] || { mkdir "$work/now" && cp "$work/plate/plate.nodes.h5" "$work/now" && solve &&
         mv "$work/now" "$work/whole"; } || return
-    rm -rf "$work/now" && mkdir "$work/now" && cp "$work/plate/plate.nodes.h5" "$work/now"
+    mkdir "$work/now" && cp "$work/plate/plate.nodes.h5" "$work/now"
 }
 
 # Two checkpoints: run until both are there, then kill.
@@ -143,12 +144,46 @@ os.execv(sys.argv[2], sys.argv[2:])' "$2" "$build/kirsch-$1" --output "$work/ful
         no_halves "$work/full"
 }
 
+# Nothing is written through a link that lies in the folder of results.
+links() { # name of what is a link, folder or file that it leads to
+    nodes || return
+    rm -rf "$work/now" "$work/elsewhere" && mkdir "$work/now" "$work/elsewhere" &&
+        cp "$work/plate/plate.nodes.h5" "$work/now" && echo kept >"$work/elsewhere/file" || return
+    ln -s "$work/elsewhere/$2" "$work/now/$1"
+    stops 3 "not written through links" solve && [ "$(ls "$work/elsewhere")" = file ] &&
+        [ "$(cat "$work/elsewhere/file")" = kept ]
+}
+
+# What a killed run left beside may be a link, too: it is removed, not followed.
+link_beside() {
+    begin && mkdir -p "$work/elsewhere" && echo kept >"$work/elsewhere/file" || return
+    for name in run.h5 run.xdmf checkpoint.h5; do ln -s "$work/elsewhere/file" "$work/now/$name.tmp"; done
+    solve && equal && [ "$(cat "$work/elsewhere/file")" = kept ]
+}
+
+# Root may write everywhere, and is nobody for this.
+read_only() {
+    nodes || return
+    rm -rf "$work/now" && mkdir "$work/now" && cp "$work/plate/plate.nodes.h5" "$work/now" &&
+        cp "$build/kirsch-solve" "$work" && chmod 755 "$work" && chmod 555 "$work/now" || return
+    as=
+    [ "$(id -u)" -eq 0 ] && as='setpriv --reuid 65534 --clear-groups'
+    stops 3 "Permission denied" $as "$work/kirsch-solve" --output "$work/now" "$work/case.yaml"
+    code=$?
+    chmod 755 "$work/now"
+    return $code
+}
+
 check takes_the_older_checkpoint_if_cut damaged cut
 check takes_the_older_checkpoint_if_changed damaged flip
 check two_damaged_checkpoints both_damaged
 check stops_at_the_time_limit walltime
 check time_limit_of_nothing stops 2 "expected seconds" "$build/kirsch-solve" --max-walltime 0 "$work/case.yaml"
 check refuses_a_second_run second_run
+check folder_that_is_a_link links run .
+check history_that_is_a_link links history.csv file
+check link_left_beside link_beside
+check read_only_folder read_only
 check results_cut_anywhere cut_results
 for program in mesh nodes solve; do check "memory_gives_out_in_$program" memory $program; done
 check full_disk_in_nodes full_disk nodes 64

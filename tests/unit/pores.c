@@ -109,6 +109,31 @@ static void a_seed_means_these_pores(void **unused) {
     kr_check_near(pore[1].centre[0], 0.039662757, 0);
 }
 
+/** The nanometres of thirty pores of each distribution, as one number (FNV-1a): the same on every machine,
+ *  whatever its libm, for a place fits or not by whole nanometres alone. */
+static void seeds_mean_the_same_pores_everywhere(void **unused) {
+    static const uint64_t golden[] = {UINT64_C(0xa0ffead502f1aaf6), UINT64_C(0x781eab5ec6ff9149),
+                                      UINT64_C(0x113696f09fb6c780), UINT64_C(0x004fbdddac792801)};
+    (void)unused;
+    for (int distribution = 0; distribution <= KR_BY_AREA; distribution++) {
+        struct kr_case c = plate(30, 17);
+        struct kr_case_hole pore[30];
+        uint64_t digest = UINT64_C(0xCBF29CE484222325);
+        int64_t throws;
+        c.pores.distribution = distribution;
+        c.pores.mean = 1.1e-3;
+        c.pores.deviation = 0.3e-3;
+        assert_int_equal(throw_all(&c, pore, &throws), 30);
+        for (size_t k = 0; k < 30; k++) {
+            const double length[] = {pore[k].centre[0], pore[k].centre[1], pore[k].radius};
+            for (size_t l = 0; l < 3; l++)
+                digest = (digest ^ (uint64_t)llrint(1e9 * length[l])) * UINT64_C(0x100000001B3);
+        }
+        if (digest != golden[distribution])
+            fail_msg("distribution %d: 0x%016llx", distribution, (unsigned long long)digest);
+    }
+}
+
 static void equal_seeds_give_equal_pores_and_others_do_not(void **unused) {
     (void)unused;
     struct kr_case c = plate(30, 17), d = plate(30, 18);
@@ -211,6 +236,7 @@ int main(void) {
         cmocka_unit_test(pores_keep_clear_of_the_decks_holes),
         cmocka_unit_test(pores_never_touch_the_edges),
         cmocka_unit_test(a_seed_means_these_pores),
+        cmocka_unit_test(seeds_mean_the_same_pores_everywhere),
         cmocka_unit_test(equal_seeds_give_equal_pores_and_others_do_not),
         cmocka_unit_test(nine_decimals_give_each_number_back),
         cmocka_unit_test(radii_and_places_are_even),

@@ -7,6 +7,7 @@
 #include "convert.h"
 #include "mesh.h"
 #include "repair.h"
+#include "solid.h"
 
 /** Squares of side 1 in a row from x = 0, and a boundary edge at their left. */
 static struct kr_mesh *row(size_t n) {
@@ -101,6 +102,79 @@ static void inverted_cells(void **unused) {
     check(mesh, "1 cells with corners in a wrong order (inverted): cell 17", "put in order", 3, 3);
 }
 
+/** A mesh of `cells` solid cells of n vertices, whose corners and bent edges are those of a regular one. */
+static struct kr_mesh *solids(size_t cells, size_t corners, int order) {
+    static const double place[9][8][3] = {
+        [4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+        [5] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.4, 0.5, 1}},
+        [6] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1.2}, {0, 1, 1}},
+        [8] = {{0, 0, 0}, {1, 0, 0}, {1.1, 1, 0}, {0, 1, 0},
+               {0, 0, 1}, {1, 0, 1}, {1, 1, 1.3}, {0, 1, 1}}};
+    const struct kr_solid *solid = kr_solid(corners);
+    size_t n = corners + (order == 2 ? solid->n_edges : 0);
+    struct kr_mesh *mesh = kr_mesh_create();
+    mesh->dim = 3;
+    mesh->n_points = n;
+    mesh->point = KR_NEW(double, 3 * n);
+    memcpy(mesh->point, place[corners], 3 * corners * sizeof *mesh->point);
+    for (size_t e = 0; e < n - corners; e++)
+        for (size_t d = 0; d < 3; d++) /* bent, each its own way */
+            mesh->point[3 * (corners + e) + d] =
+                (place[corners][solid->edge[e][0]][d] + place[corners][solid->edge[e][1]][d]) / 2 +
+                0.01 * (double)((7 * e + 3 * d) % 5);
+    mesh->n_cells = cells;
+    mesh->first = kr_realloc(mesh->first, cells + 1, sizeof *mesh->first);
+    mesh->vertex = KR_NEW(size_t, cells * n);
+    mesh->cell_tag = KR_NEW(int64_t, cells);
+    for (size_t c = 0; c < cells; c++) {
+        mesh->first[c + 1] = n * (c + 1);
+        mesh->cell_tag[c] = (int64_t)(10 * c + 7);
+        for (size_t k = 0; k < n; k++)
+            mesh->vertex[n * c + k] = k;
+    }
+    return mesh;
+}
+
+static void inverted_solids_are_turned(void **unused) {
+    static const size_t corners[] = {4, 5, 6, 8};
+    (void)unused;
+    for (size_t k = 0; k < 4; k++)
+        for (int order = 1; order <= 2; order++) {
+            struct kr_mesh *mesh = solids(1, corners[k], order);
+            double centroid[2][3], volume = kr_mesh_cell_volume(mesh, 0, centroid[0]);
+            assert_true(volume > 0.1);
+            for (size_t p = 0; p < mesh->n_points; p++)
+                mesh->point[3 * p] = -mesh->point[3 * p]; /* a mirror turns it inside out */
+            kr_check_stops(repair_without, mesh, 2, "1 cells with corners in a wrong order (inverted): cell 7");
+            kr_check_stops(repair_with, mesh, 42, "their corners were put in order");
+            kr_mesh_repair(mesh, "in.msh", 1);
+            kr_check_near(kr_mesh_cell_volume(mesh, 0, centroid[1]), volume, 1e-15);
+            kr_check_near(centroid[1][0], -centroid[0][0], 1e-15);
+            kr_mesh_free(mesh);
+        }
+    assert_int_equal(kr_memory_outstanding(), 0);
+}
+
+static void solids_twice_or_flat_are_dropped(void **unused) {
+    static const size_t other_order[] = {1, 2, 0, 3};
+    (void)unused;
+    struct kr_mesh *mesh = solids(2, 4, 1);
+    memcpy(mesh->vertex + 4, other_order, sizeof other_order);
+    kr_check_stops(repair_without, mesh, 2, "the same vertices as another cell: cell 17 at (1, 0, 0) m");
+    kr_mesh_repair(mesh, "in.msh", 1);
+    assert_int_equal(mesh->n_cells, 1);
+    kr_mesh_free(mesh);
+    mesh = solids(2, 8, 1);
+    for (size_t k = 0; k < 4; k++)
+        mesh->vertex[12 + k] = k; /* the second one has its floor for a ceiling */
+    kr_check_stops(repair_without, mesh, 2, "1 cells with no area or volume: cell 17");
+    kr_mesh_repair(mesh, "in.msh", 1);
+    assert_int_equal(mesh->n_cells, 1);
+    assert_int_equal(mesh->cell_tag[0], 7);
+    kr_mesh_free(mesh);
+    assert_int_equal(kr_memory_outstanding(), 0);
+}
+
 static void duplicate_cells(void **unused) {
     (void)unused;
     struct kr_mesh *mesh = row(3);
@@ -184,6 +258,8 @@ static void common_areas_are_exact(void **unused) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(inverted_solids_are_turned),
+        cmocka_unit_test(solids_twice_or_flat_are_dropped),
         cmocka_unit_test(repeated_vertices),   cmocka_unit_test(flat_cells),
         cmocka_unit_test(inverted_cells),      cmocka_unit_test(duplicate_cells),
         cmocka_unit_test(inner_facets),        cmocka_unit_test(orphans_are_named),
