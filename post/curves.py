@@ -85,7 +85,8 @@ def speed(case):
 def tip(case):
     """Place of the tip in time; holes it meets are grey bands."""
     tips = tips_by_box(case)
-    across = all(np.ptp(t["x"]) >= np.ptp(t["y"]) for _, t in tips)
+    across = np.ptp(np.concatenate([t["x"] for _, t in tips])) >= np.ptp(
+        np.concatenate([t["y"] for _, t in tips]))
     key, axis = ("x", 0) if across else ("y", 1)
     figure, axes = plt.subplots(figsize=(4.6, 3.2), constrained_layout=True)
     for hole in holes_on_path(case, tips):

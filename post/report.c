@@ -302,7 +302,7 @@ void kr_report_say(const struct kr_report *report) {
     if (tree->countable)
         say_tree(report);
     else if (record->dim == 3)
-        kr_say("  branches       not followed: crack trees are of bodies in 2D");
+        kr_say("  crack front    through the thickness: front.csv; its area over time: area.csv");
     else
         kr_say("  branches       not to be counted: %.0f %% of all nodes are damaged",
                100.0 * (double)tree->damaged / (double)record->n);
