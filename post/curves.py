@@ -78,7 +78,7 @@ def speed(case):
     over.set_ylabel("crack speed / Rayleigh speed")
     over.set_title("bold: mean over %d moves of the tip" % SMOOTH, loc="right", pad=3)
     if len(tips) > 1:
-        over.legend(loc="upper left")
+        over.legend(loc="lower left", ncols=2)
     return save(case, figure, "speed")
 
 
@@ -92,7 +92,8 @@ def tip(case):
     for hole in holes_on_path(case, tips):
         axes.axhspan(hole[axis] - hole[2], hole[axis] + hole[2], color="0.9", linewidth=0)
     for box, t in tips:
-        axes.plot(t["time"], t[key], drawstyle="steps-post",
+        axes.plot(t["time"], t[key], STYLES[(box - 1) // len(COLOURS) % len(STYLES)],
+                  drawstyle="steps-post",
                   color=COLOURS[(box - 1) % len(COLOURS)], label=box_label(box, tips))
     axes.set(xlabel="time (µs)", ylabel="tip position %s (mm)" % key)
     open_axes(axes)

@@ -76,7 +76,8 @@ def branching(folder, rows):
                 label=["met a pore", "none"])
     beside.set_xlabel("runs")
     beside.xaxis.get_major_locator().set_params(integer=True)
-    beside.legend(fontsize=6)
+    if not met.all():
+        beside.legend(fontsize=6, loc="lower center", bbox_to_anchor=(0.5, 1))
     for some in (axes, beside):
         open_axes(some)
     save(figure, folder, "branching")
