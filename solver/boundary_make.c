@@ -171,7 +171,7 @@ static double value_at(const struct kr_load_value *v, double x, double y, double
         kr_stop(KR_EXIT_NUMBERS,
                 "the load on set '%s' is %g at x = %g, y = %g m, t = %g s; expected a finite number: "
                 "look for a division by zero or a root of a negative number",
-                v->load->set->name, value, x, y, v->t);
+                v->load->set->name, isnan(value) ? NAN : value, x, y, v->t);
     return value;
 }
 

@@ -75,20 +75,22 @@ static int loose_pivot(int m, double a[MOTIONS][MOTIONS]) {
 
 const char *kr_held_free_motion(const struct kr_bonds *b, const unsigned char *fixed,
                                 size_t *node) {
-    static const char *const in_plane[] = {"along x", "along y", "turning in its plane"};
-    static const char *const in_space[] = {"along x",
-                                           "along y",
-                                           "along z",
+    static const char *const in_plane[] = {"moving along x", "moving along y", "turning in its plane"};
+    static const char *const in_space[] = {"moving along x",
+                                           "moving along y",
+                                           "moving along z",
                                            "turning about an axis along z",
                                            "turning about an axis along x",
                                            "turning about an axis along y"};
     int32_t *piece = pieces_of(b);
     double(*gram)[MOTIONS][MOTIONS] = kr_alloc(b->n, sizeof *gram);
+    size_t *count = KR_NEW(size_t, b->n);
     const char *found = NULL;
     int m = b->dim == 2 ? 3 : 6;
     for (size_t i = 0; i < b->n; i++) {
         const double about[3] = {b->x[0][piece[i]], b->x[1][piece[i]],
                                  b->dim == 3 ? b->x[2][piece[i]] : 0};
+        count[piece[i]]++;
         for (int d = 0; d < b->dim; d++) {
             double row[MOTIONS];
             if (!(fixed[i] >> d & 1))
@@ -100,12 +102,13 @@ const char *kr_held_free_motion(const struct kr_bonds *b, const unsigned char *f
         }
     }
     for (size_t i = 0; i < b->n && !found; i++) {
-        int loose = piece[i] == (int32_t)i ? loose_pivot(m, gram[i]) : -1;
+        int loose = piece[i] == (int32_t)i && count[i] > 1 ? loose_pivot(m, gram[i]) : -1;
         *node = i;
         if (loose >= 0)
             found = b->dim == 2 ? in_plane[loose] : in_space[loose];
     }
     kr_free(gram);
+    kr_free(count);
     kr_free(piece);
     return found;
 }

@@ -7,8 +7,9 @@
 
 #include "boundary.h"
 
-/** The first way in which a piece of the body can move although all is at rest: "along x", "about an axis
- *  along z"; NULL if there is none. Pieces are joined by living bonds. node: one of the piece. */
+/** The first way in which a piece of the body can move although all is at rest: "moving along x", "turning about an axis
+ *  along z"; NULL if there is none. Pieces are joined by living bonds; single nodes, which stay where
+ *  they are, do not count. node: one of the piece. */
 const char *kr_held_free_motion(const struct kr_bonds *bonds, const unsigned char *fixed,
                                 size_t *node);
 

@@ -2,6 +2,10 @@
  *
  * Pre-cracks. See precrack.h.
  *
+ * A node that stands on a line of a plate belongs to its left side, seen from its first corner to the next: it is moved
+ * there by two billionths of the crack's length. By the numbers alone rounding would decide whether it keeps half of its
+ * bonds or loses all of them.
+ *
  * A polygon or disc lies in a plane: a bond meets it where its ends lie on two sides and the point
  * between them lies inside. Ends closer to the plane than a billionth of the crack's size lie in it, and
  * points as close to its rim are inside: bonds that touch by the numbers of the deck do so whatever the
@@ -130,10 +134,24 @@ void kr_precrack_free(struct kr_precrack *crack) {
 
 /* ---- asking one ---- */
 
+/* The place of a node, left of the line from a to b where it stands on it. */
+static void step_off(const double *p, const double *a, const double *b, double to[2]) {
+    const double way[2] = {b[0] - a[0], b[1] - a[1]}, length = hypot(way[0], way[1]);
+    double left = (way[0] * (p[1] - a[1]) - way[1] * (p[0] - a[0])) / length;
+    double step = fabs(left) < BARELY * length ? 2 * BARELY : 0;
+    to[0] = p[0] - step * way[1];
+    to[1] = p[1] + step * way[0];
+}
+
 static int meets_line(const struct kr_precrack *crack, const double *p, const double *q) {
-    for (size_t k = 0; k + 1 < crack->n; k++)
-        if (kr_flat_segments_meet(p, q, crack->corner + 2 * k, crack->corner + 2 * k + 2))
+    double from[2], to[2];
+    for (size_t k = 0; k + 1 < crack->n; k++) {
+        const double *a = crack->corner + 2 * k, *b = a + 2;
+        step_off(p, a, b, from);
+        step_off(q, a, b, to);
+        if (kr_flat_segments_meet(from, to, a, b))
             return 1;
+    }
     return 0;
 }
 

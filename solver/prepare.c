@@ -67,6 +67,26 @@ static void mark_no_fail(const struct kr_case *c, const struct kr_nodes *nodes,
     }
 }
 
+/* Nodes without any bond: those that stand on a pre-crack. */
+static void warn_of_bare_nodes(const struct kr_bonds *b) {
+    size_t bare = 0, first = 0;
+    for (size_t slice = 0; slice < b->n_slices; slice++) {
+        int bonds[KR_LANES] = {0};
+        for (size_t row = b->first[slice]; row < b->first[slice + 1]; row++)
+            for (int lane = 0; lane < KR_LANES; lane++)
+                bonds[lane] += b->living[row] >> lane & 1;
+        for (size_t i = slice * KR_LANES; i < b->n && i < (slice + 1) * KR_LANES; i++)
+            if (!bonds[i % KR_LANES]) {
+                first = bare ? first : i;
+                bare++;
+            }
+    }
+    if (bare)
+        kr_warn("%zu nodes stand on a pre-crack and have lost all their bonds, such as the one at (%.6g, %.6g) mm; "
+                "put the crack between two rows of nodes, half a spacing beside", bare, 1e3 * b->x[0][first],
+                1e3 * b->x[1][first]);
+}
+
 /* Cut all bonds that cross a pre-crack. */
 static void cut_precracks(struct kr_run *run, struct kr_deck *deck) {
     const struct kr_case *c = run->c;
@@ -82,6 +102,8 @@ static void cut_precracks(struct kr_run *run, struct kr_deck *deck) {
         kr_precrack_free(crack);
         kr_free(path);
     }
+    if (run->precrack)
+        warn_of_bare_nodes(run->bonds);
 }
 
 /* Say what one-sided weights do: the net force of a wave of the plate's size on a body without loads,

@@ -221,7 +221,7 @@ static void begin(struct statics *s, struct kr_run *run, struct kr_records *r) {
     if (motion)
         kr_stop(KR_EXIT_INPUT,
                 "stage %zu is static, but nothing keeps the body (the piece with the node at %g, %g m) "
-                "from moving %s; hold it by a load such as {set: bottom, displacement: [free, 0 mm]}",
+                "from %s; hold it by a load such as {set: bottom, displacement: [free, 0 mm]}",
                 r->at.stage + 1, run->bonds->x[0][node], run->bonds->x[1][node], motion);
 }
 

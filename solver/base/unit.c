@@ -121,6 +121,10 @@ static char *explain(const char *text, const char *number_end, const char *unit)
     if (!*rest)
         return kr_text("found '%.60s', expected %s with its unit, such as '%.*s %s'", text, noun,
                        length, number, common);
+    if (strchr("*+-/(^", *rest))
+        return kr_text("found '%.60s', a formula; expected %s, such as '%.*s %s'. Only loads and initial "
+                       "fields may be formulas; sets are fixed when the nodes are made, and no load can move "
+                       "to other nodes", text, noun, length, number, common);
     ut_unit *known = parse(rest);
     ut_free(known);
     return kr_text("found '%.60s', whose unit '%.30s' is %s; expected %s, such as '%.*s %s'", text,

@@ -157,7 +157,7 @@ links() { # name of what is a link, folder or file that it leads to
 # What a killed run left beside may be a link, too: it is removed, not followed.
 link_beside() {
     begin && mkdir -p "$work/elsewhere" && echo kept >"$work/elsewhere/file" || return
-    for name in run.h5 run.xdmf checkpoint.h5; do ln -s "$work/elsewhere/file" "$work/now/$name.tmp"; done
+    for file in run.h5 run.xdmf checkpoint.h5; do ln -s "$work/elsewhere/file" "$work/now/$file.tmp"; done
     solve && equal && [ "$(cat "$work/elsewhere/file")" = kept ]
 }
 

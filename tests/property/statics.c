@@ -189,9 +189,9 @@ static void test_statics_names_free_motions(void **state) {
     struct subject s = begin(kr_plate_lattice(20, 20, SPACING), KR_PLANE_STRESS);
     unsigned char *fixed = s.q->rest->fixed;
     size_t node;
-    assert_string_equal(kr_held_free_motion(s.bonds, fixed, &node), "along x");
+    assert_string_equal(kr_held_free_motion(s.bonds, fixed, &node), "moving along x");
     fixed[3] = 1;
-    assert_string_equal(kr_held_free_motion(s.bonds, fixed, &node), "along y");
+    assert_string_equal(kr_held_free_motion(s.bonds, fixed, &node), "moving along y");
     fixed[3] = 3;
     assert_string_equal(kr_held_free_motion(s.bonds, fixed, &node), "turning in its plane");
     fixed[4] = 1; /* beside it: pulls along the line of both, and holds no turning */
@@ -200,7 +200,7 @@ static void test_statics_names_free_motions(void **state) {
     assert_null(kr_held_free_motion(s.bonds, fixed, &node));
     const double from[3] = {0, 10.01 * SPACING}, to[3] = {20 * SPACING, 10.01 * SPACING};
     kr_precrack_cut_line(s.bonds, from, to, 1);
-    assert_string_equal(kr_held_free_motion(s.bonds, fixed, &node), "along x");
+    assert_string_equal(kr_held_free_motion(s.bonds, fixed, &node), "moving along x");
     assert_true(node >= 200);
     end(&s);
     s = begin(kr_plate_block(6, 7, 8, SPACING, 0), KR_SOLID);
