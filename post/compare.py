@@ -1,29 +1,58 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Two runs side by side and their difference: kirsch-plot compare FOLDER FOLDER."""
+"""Two runs side by side and their difference: kirsch-plot compare FOLDER FOLDER [--field NAME] [--at US]."""
 import os
 
 import numpy as np
 
-from maps import outline_material, paint, panels, save, show
+from maps import UNITS, energy_limit, lengths, outline_material, paint, panels, save, show
 from results import Case, Fault, warn
-from style import DAMAGE, plt
+from style import DAMAGE, ENERGY, WISH, plt
 
 
-def draw(*folders):
+def options(words):
+    """Folders, field, time [us] (None: the last output)."""
+    folders, wanted, words = [], {"--field": "Damage", "--at": None}, list(words)
+    while words:
+        word = words.pop(0)
+        if word in wanted and words:
+            wanted[word] = words.pop(0)
+        else:
+            folders.append(word)
+    try:
+        return folders, wanted["--field"], wanted["--at"] and float(wanted["--at"])
+    except ValueError:
+        raise Fault("compare: --at: found `%s`, expected a time in us" % wanted["--at"])
+
+
+def chosen(case, name, at):
+    """Values of the field at the output nearest to a time, and its time [us]."""
+    names, times = case.steps()
+    k = len(times) - 1 if at is None else int(np.abs(times - at).argmin())
+    there = list(case.run()["step"][names[k]])
+    if name not in there:
+        raise Fault("unknown field `%s`; %s has %s" % (name, case.folder, ", ".join(there)))
+    return UNITS.get(name, ("SI", 1))[1] * lengths(case.field(names[k], name)), times[k]
+
+
+def draw(words):
+    folders, name, at = options(words)
     if len(folders) != 2:
         raise Fault("compare: expected the folders of two runs, found %d" % len(folders))
     a, b = (Case(folder.rstrip("/"), []) for folder in folders)
     if np.abs(np.subtract(a.box(), b.box())).max() > max(a.cells()[4], b.cells()[4]):
-        raise Fault("compare: %s and %s are plates of different size" % folders)
+        raise Fault("compare: %s and %s are plates of different size" % tuple(folders))
     figure, axes, bar, wide = panels(a, 3)
-    steps = [case.steps() for case in (a, b)]
-    painted = [paint(case, case.field(names[-1], "Damage"), wide)
-               for case, (names, _) in zip((a, b), steps)]
-    for some, case, pixels, (_, times) in zip(axes, (a, b), painted, steps):
-        image = show(some, case, pixels, DAMAGE, 1)
+    values, times = zip(*(chosen(case, name, at) for case in (a, b)))
+    painted = [paint(case, some, wide) for case, some in zip((a, b), values)]
+    colours, most = (DAMAGE, 1) if name == "Damage" else (ENERGY, energy_limit(values))
+    least, most = WISH["limits"] or (0, most)
+    for some, case, pixels, time in zip(axes, (a, b), painted, times):
+        image = show(some, case, pixels, colours, most, least)
         outline_material(some, case, pixels)
-        some.set_title("%s, %.4g µs" % (os.path.basename(case.folder), times[-1]), pad=3)
-    figure.colorbar(image, cax=bar, label="damage")
+        some.set_title("%s, %.4g µs" % (os.path.basename(case.folder), time), pad=3)
+    unit, label = UNITS.get(name, ("SI", 1))[0], name.replace("_", " ").lower()
+    label += " (%s)" % unit if unit else ""
+    figure.colorbar(image, cax=bar, label=label)
     difference = painted[0] - painted[1]
     most = float(np.ma.abs(difference).max())
     limit = most or 1
@@ -34,8 +63,8 @@ def draw(*folders):
     place = axes[2].get_position()
     beside = figure.add_axes([place.x1 + 0.015, place.y0, 0.015, place.height])
     figure.colorbar(image, cax=beside, label="first less second")
-    if abs(steps[0][1][-1] - steps[1][1][-1]) > 1e-6 * steps[0][1][-1]:
-        warn("compare: the last outputs are of %.4g and %.4g µs" % (steps[0][1][-1], steps[1][1][-1]))
+    if abs(times[0] - times[1]) > 1e-6 * times[0]:
+        warn("compare: the outputs are of %.4g and %.4g µs" % times)
     os.makedirs(a.path("pictures"), exist_ok=True)
-    print("largest difference of damage: %.9g" % most)
-    print(save(a, figure, "compare"), flush=True)
+    print("largest difference of %s: %.9g" % (label, most))
+    print(save(a, figure, "compare" if name == "Damage" else "compare-" + name.lower()), flush=True)

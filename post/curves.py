@@ -78,20 +78,22 @@ def speed(case):
     over.set_ylabel("crack speed / Rayleigh speed")
     over.set_title("bold: mean over %d moves of the tip" % SMOOTH, loc="right", pad=3)
     if len(tips) > 1:
-        over.legend(loc="upper left")
+        over.legend(loc="lower left", ncols=2)
     return save(case, figure, "speed")
 
 
 def tip(case):
     """Place of the tip in time; holes it meets are grey bands."""
     tips = tips_by_box(case)
-    across = all(np.ptp(t["x"]) >= np.ptp(t["y"]) for _, t in tips)
+    across = np.ptp(np.concatenate([t["x"] for _, t in tips])) >= np.ptp(
+        np.concatenate([t["y"] for _, t in tips]))
     key, axis = ("x", 0) if across else ("y", 1)
     figure, axes = plt.subplots(figsize=(4.6, 3.2), constrained_layout=True)
     for hole in holes_on_path(case, tips):
         axes.axhspan(hole[axis] - hole[2], hole[axis] + hole[2], color="0.9", linewidth=0)
     for box, t in tips:
-        axes.plot(t["time"], t[key], drawstyle="steps-post",
+        axes.plot(t["time"], t[key], STYLES[(box - 1) // len(COLOURS) % len(STYLES)],
+                  drawstyle="steps-post",
                   color=COLOURS[(box - 1) % len(COLOURS)], label=box_label(box, tips))
     axes.set(xlabel="time (µs)", ylabel="tip position %s (mm)" % key)
     open_axes(axes)

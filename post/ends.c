@@ -9,85 +9,22 @@
 
 #include "base/error.h"
 #include "base/memory.h"
-#include "search.h"
+#include "rims.h"
 
 #define NONE KR_FRONT_NONE
 
-/* ---- rims -------------------------------------------------------------------------------- */
-
-/** The damaged nodes look for rims among all nodes. */
-struct rims {
-    const struct kr_front *front;
-    size_t n;
-    double *x; /* (n x 3) m: a place of the front, then the nodes of the rims */
-    int *rim;  /* (n) */
-    int *found;
-    struct kr_search *search;
-};
-
-/** Rim nodes and the nodes asked for in one search: asked nodes stand first. */
-static struct rims rims_of(const struct kr_front *front) {
-    const struct kr_record *record = front->record;
-    struct rims rims = {front, front->n};
-    for (size_t i = 0; record->rim && i < record->n; i++)
-        rims.n += record->rim[i] != KR_RIM_NONE;
-    rims.x = KR_NEW(double, 3 * rims.n);
-    rims.rim = KR_NEW(int, rims.n);
-    rims.found = KR_NEW(int, rims.n);
-    for (size_t k = 0; k < 3 * front->n; k++)
-        rims.x[k] = front->x[k];
-    for (size_t i = 0, k = front->n; record->rim && i < record->n; i++)
-        if (record->rim[i] != KR_RIM_NONE) {
-            rims.rim[k] = record->rim[i];
-            for (size_t a = 0; a < 2; a++)
-                rims.x[3 * k + a] = record->position[2 * i + a];
-            k++;
-        }
-    rims.search = kr_search_create(3, rims.n, rims.x, record->horizon);
-    return rims;
-}
-
-static void free_rims(struct rims *rims) {
-    kr_search_free(rims->search);
-    kr_free(rims->x);
-    kr_free(rims->rim);
-    kr_free(rims->found);
-}
-
-/** The rim nearest to any of some nodes, within a horizon; holes before boundaries. */
-static int rim_near(const struct rims *rims, const size_t *node, size_t count) {
-    double least = INFINITY;
-    int rim = KR_RIM_NONE;
-    for (size_t k = 0; k < count; k++) {
-        size_t more = kr_search_near(rims->search, node[k], rims->found, rims->n);
-        for (size_t f = 0; f < more; f++) {
-            size_t j = (size_t)rims->found[f];
-            double away = hypot(rims->x[3 * j] - rims->x[3 * node[k]],
-                                rims->x[3 * j + 1] - rims->x[3 * node[k] + 1]);
-            int is_hole = rims->rim[j] > 0;
-            if (rims->rim[j] == KR_RIM_NONE || is_hole < (rim > 0))
-                continue;
-            if (away < least || is_hole > (rim > 0)) {
-                least = away;
-                rim = rims->rim[j];
-            }
-        }
-    }
-    return rim;
-}
-
 /* ---- starts and ends --------------------------------------------------------------------- */
 
-static void tell_start(const struct rims *rims, const struct kr_chain *chain,
-                       struct kr_leg *leg) {
-    const struct kr_source *source = rims->front->source + chain->source;
+static void tell_start(const struct kr_front *front, const struct kr_rims *rims,
+                       const struct kr_chain *chain, struct kr_leg *leg) {
+    const struct kr_source *source = front->source + chain->source;
     int rim;
     leg->start = leg->parent != NONE     ? KR_START_FORK
                  : source->is_precrack ? KR_START_PRECRACK
                                        : KR_START_INSIDE;
     if (leg->start != KR_START_INSIDE)
         return;
-    rim = rim_near(rims, &source->birth, 1);
+    rim = kr_rims_nearest(rims, &source->birth, 1);
     leg->start = rim > 0 ? KR_START_HOLE : rim < 0 ? KR_START_BOUNDARY : KR_START_INSIDE;
     leg->start_hole = rim > 0 ? rim : 0;
 }
@@ -126,32 +63,30 @@ static int has_stopped(const struct kr_record *record, const struct kr_leg *leg)
     return (end - leg->last_time) * run > KR_FRONT_SHORTEST * record->horizon * time;
 }
 
-static void tell_end(const struct rims *rims, const struct kr_chain *chain,
-                     struct kr_legs *legs, size_t c) {
+static void tell_end(const struct kr_front *front, const struct kr_rims *rims,
+                     const struct kr_chain *chain, struct kr_legs *legs, size_t c) {
     struct kr_leg *leg = legs->item + c;
     int rim;
     if (leg->is_forked) {
         leg->end = KR_END_FORK;
         return;
     }
-    if (runs_into(rims->front, legs, c, chain, &leg->other)) {
+    if (runs_into(front, legs, c, chain, &leg->other)) {
         leg->end = KR_END_MERGE;
         return;
     }
-    rim = rim_near(rims, chain->end, chain->end_count);
+    rim = kr_rims_nearest(rims, chain->end, chain->end_count);
     leg->end_hole = rim > 0 ? rim : 0;
     leg->end = rim > 0   ? KR_END_HOLE
                : rim < 0 ? KR_END_BOUNDARY
-               : has_stopped(rims->front->record, leg) ? KR_END_ARREST
+               : has_stopped(front->record, leg) ? KR_END_ARREST
                                                        : KR_END_RUNNING;
 }
 
-void kr_legs_tell_ends(const struct kr_front *front, const struct kr_chains *chains,
-                       struct kr_legs *legs) {
-    struct rims rims = rims_of(front);
+void kr_legs_tell_ends(const struct kr_front *front, const struct kr_rims *rims,
+                       const struct kr_chains *chains, struct kr_legs *legs) {
     for (size_t c = 0; c < legs->count; c++) {
-        tell_start(&rims, chains->item + c, legs->item + c);
-        tell_end(&rims, chains->item + c, legs, c);
+        tell_start(front, rims, chains->item + c, legs->item + c);
+        tell_end(front, rims, chains->item + c, legs, c);
     }
-    free_rims(&rims);
 }

@@ -51,7 +51,7 @@ static size_t take_from_parent(const struct kr_chain *parent, const size_t *of, 
 }
 
 static void trace_leg(const struct kr_front *front, const struct kr_chains *chains, size_t c,
-                      const double *anchor, struct kr_legs *legs) {
+                      const double *anchor, const char *alone, struct kr_legs *legs) {
     const struct kr_chain *chain = chains->item + c;
     struct kr_leg *leg = legs->item + c;
     size_t room = chain->count + (chain->parent == NONE ? 0 : chains->item[chain->parent].count);
@@ -62,7 +62,7 @@ static void trace_leg(const struct kr_front *front, const struct kr_chains *chai
     count = keep_own(front, chain, legs->of, c, 0, node);
     if (chain->parent != NONE)
         count += take_from_parent(chains->item + chain->parent, legs->of, c, node + count);
-    kr_path_follow(front, count, node, &leg->path);
+    kr_path_follow(front, count, node, alone, &leg->path);
     kr_free(node);
 }
 
@@ -101,7 +101,9 @@ static void join_arms(struct kr_legs *legs, size_t c) {
 
 void kr_legs_find(const struct kr_front *front, struct kr_legs *legs) {
     struct kr_chains chains;
+    struct kr_rims *rims = kr_rims_create(front);
     double *anchor;
+    char *alone = KR_NEW(char, front->n);
     kr_assert(front->record->dim == 2);
     kr_chains_find(front, &chains);
     *legs = (struct kr_legs){.count = chains.count};
@@ -111,16 +113,19 @@ void kr_legs_find(const struct kr_front *front, struct kr_legs *legs) {
         memcpy(legs->of, chains.of, front->n * sizeof *legs->of);
     anchor = KR_NEW(double, 2 * chains.count);
     kr_legs_place_forks(front, &chains, legs->of, anchor);
+    kr_legs_tell_alone(front, rims, &chains, legs->of, alone);
     for (size_t c = 0; c < chains.count; c++)
-        trace_leg(front, &chains, c, anchor, legs);
+        trace_leg(front, &chains, c, anchor, alone, legs);
     for (size_t c = 0; c < chains.count; c++)
         measure_leg(&chains, c, anchor, legs);
     for (size_t c = 0; c < chains.count; c++)
         if (legs->item[c].is_forked)
             join_arms(legs, c);
-    kr_legs_tell_ends(front, &chains, legs);
+    kr_legs_tell_ends(front, rims, &chains, legs);
     kr_legs_share_energy(front, legs);
     kr_free(anchor);
+    kr_free(alone);
+    kr_rims_free(rims);
     kr_chains_clear(&chains);
 }
 

@@ -14,6 +14,7 @@
 
 #include "chains.h"
 #include "path.h"
+#include "rims.h"
 
 enum kr_start { KR_START_PRECRACK, KR_START_HOLE, KR_START_BOUNDARY, KR_START_INSIDE,
                 KR_START_FORK };
@@ -48,9 +49,14 @@ void kr_legs_clear(struct kr_legs *legs);
  *  itself; moves nodes between legs. */
 void kr_legs_place_forks(const struct kr_front *front, const struct kr_chains *chains,
                          size_t *of, double *anchor);
+/** Tell of which damage one tip alone is the cause: alone (front's n) is 0 within a horizon of a rim,
+ *  which cuts the nodes' families, and of the damage of a leg that it does not fork from or with. There
+ *  whole ligaments pass the threshold at once, and what looks like a fast tip is none. */
+void kr_legs_tell_alone(const struct kr_front *front, const struct kr_rims *rims,
+                        const struct kr_chains *chains, const size_t *of, char *alone);
 /** Tell how each leg starts and ends. */
-void kr_legs_tell_ends(const struct kr_front *front, const struct kr_chains *chains,
-                       struct kr_legs *legs);
+void kr_legs_tell_ends(const struct kr_front *front, const struct kr_rims *rims,
+                       const struct kr_chains *chains, struct kr_legs *legs);
 /** Share the energy of the broken bonds out to legs and moves. */
 void kr_legs_share_energy(const struct kr_front *front, struct kr_legs *legs);
 

@@ -5,7 +5,7 @@ from matplotlib.patches import Circle
 
 from raster import raster
 from results import Fault
-from style import DAMAGE, DPI, ENERGY, WIDTH, plt
+from style import DAMAGE, DPI, ENERGY, WIDTH, WISH, plt
 
 
 def rows_of(case, columns):
@@ -39,11 +39,11 @@ def paint(case, values, columns):
     return np.ma.masked_array(total / np.maximum(count, 1), count == 0)
 
 
-def show(axes, case, pixels, colours, limit):
+def show(axes, case, pixels, colours, limit, least=0):
     """Put a map of the whole plate into axes in mm."""
     lower, upper = case.box()
     return axes.imshow(pixels, origin="lower", extent=(lower[0], upper[0], lower[1], upper[1]),
-                       cmap=colours, vmin=0, vmax=limit, interpolation="nearest",
+                       cmap=colours, vmin=least, vmax=limit, interpolation="nearest",
                        aspect="auto")
 
 
@@ -116,20 +116,21 @@ def four_maps(case, field, colours, label, limit_of, scale=1):
     """Maps of a field with one colour scale; returns the figure."""
     chosen = chosen_steps(case)
     values = [scale * lengths(case.field(step, field)) for step, _ in chosen]
-    limit = limit_of(values)
+    least, limit = WISH["limits"] or (0, limit_of(values))
     figure, axes, bar, pixels = panels(case, len(chosen))
     for a, v, (_, time) in zip(axes, values, chosen):
-        image = show(a, case, paint(case, v, pixels), colours, limit)
+        image = show(a, case, paint(case, v, pixels), colours, limit, least)
         outline_holes(a, case)
         a.set_title("t = %.4g µs" % time, pad=3)
-    extend = "max" if limit < max(v.max() for v in values) else "neither"
+    over, under = limit < max(v.max() for v in values), least > min(v.min() for v in values)
+    extend = ("both" if under else "max") if over else "min" if under else "neither"
     figure.colorbar(image, cax=bar, label=label, extend=extend)
     return figure
 
 
 def save(case, figure, name):
-    path = case.path("pictures/%s.png" % name)
-    figure.savefig(path, dpi=DPI)
+    path = case.path("pictures/%s.%s" % (name, WISH["format"]))
+    figure.savefig(path, dpi=WISH["dpi"])
     plt.close(figure)
     return path
 
@@ -166,5 +167,5 @@ def any_field(name):
         unit, factor = UNITS.get(name, ("SI", 1))
         label = name.replace("_", " ").lower() + (" (%s)" % unit if unit else "")
         figure = four_maps(case, name, ENERGY, label, energy_limit, factor)
-        return save(case, figure, name.lower())
+        return save(case, figure, "field-" + name.lower())
     return picture

@@ -161,20 +161,13 @@ static int sooner(const void *left, const void *right) {
     return a->s > b->s ? -1 : a->s < b->s; /* the farthest of a time first */
 }
 
-static int is_shared(const struct kr_front *front, size_t i) {
-    for (size_t f = front->first[i]; f < front->first[i + 1]; f++)
-        if (front->source_of[front->near[f]] != front->source_of[i])
-            return 1;
-    return 0;
-}
-
 static void find_moves(const struct kr_front *front, size_t count, const size_t *node,
-                       struct kr_path *path) {
+                       const char *alone, struct kr_path *path) {
     struct kr_move *all = KR_NEW(struct kr_move, count);
     for (size_t k = 0; k < count; k++)
         all[k] = (struct kr_move){front->arrival[node[k]],
                                   kr_path_place(front, path, node[k], NULL),
-                                  {0, 0}, NAN, NAN, NAN, NAN, is_shared(front, node[k])};
+                                  {0, 0}, NAN, NAN, NAN, NAN, alone[node[k]]};
     qsort(all, count, sizeof *all, sooner);
     for (size_t k = 0; k < count; k++)
         if (k == 0 || all[k].s > all[path->count - 1].s)
@@ -221,15 +214,17 @@ static int solve(int terms, double matrix[3][3], double right[3], double *slope,
     return 1;
 }
 
-/** Slope dT/ds at moves[at] from a fit over moves from..to-1, and its standard error; 0: none. */
+/** Slope dT/ds at moves[at] from a fit over moves from..to-1, and its standard error; 0: none. Of the
+ *  residuals those farther apart than `apart` are independent. */
 static int fit_slope(const struct kr_move *move, size_t from, size_t to, size_t at, int terms,
-                     double width, double *slope, double *error) {
+                     double apart, double width, double *slope, double *error) {
     double matrix[3][3] = {{0}}, right[3] = {0}, copy[3], sum = 0, variance, rest, fitted = 0;
+    double independent;
     size_t used = 0;
     for (size_t k = from; k < to; k++) {
         double u = (move[k].s - move[at].s) / width, t = move[k].time - move[at].time;
         double power[3] = {1, u, u * u};
-        if (move[k].is_shared)
+        if (!move[k].is_alone)
             continue;
         used++;
         for (int i = 0; i < terms; i++) {
@@ -244,35 +239,38 @@ static int fit_slope(const struct kr_move *move, size_t from, size_t to, size_t 
         return 0;
     for (int i = 0; i < terms; i++)
         fitted += copy[i] * copy[i];
-    rest = fmax(sum - fitted, 0) / (double)(used - (size_t)terms);
+    independent = fmin((double)used, 1 + (move[to - 1].s - move[from].s) / apart);
+    rest = fmax(sum - fitted, 0) / fmax(independent - terms, 1);
     *slope /= width;
     *error = sqrt(variance * rest) / width;
     return 1;
 }
 
 static void find_speed(const struct kr_record *record, struct kr_path *path, size_t at) {
-    const double window = kr_path_window(record);
+    const double window = kr_path_window(record), apart = record->horizon;
     struct kr_move *move = path->move;
     size_t from = at, to = at + 1;
     double slope, error, chord;
-    while (from && move[at].s - move[from - 1].s <= window)
-        from--;
-    while (to < path->count && move[to].s - move[at].s <= window)
-        to++;
+    if (!move[at].is_alone)
+        return;
+    for (size_t k = at; k && move[at].s - move[k - 1].s <= window; k--)
+        from = move[k - 1].is_alone ? k - 1 : from;
+    for (size_t k = at + 1; k < path->count && move[k].s - move[at].s <= window; k++)
+        to = move[k].is_alone ? k + 1 : to;
     chord = (move[to - 1].time - move[from].time) / (move[to - 1].s - move[from].s);
     if (to - from < LEAST_MOVES || move[to - 1].s - move[from].s < record->horizon ||
         !(chord > 0))
         return;
-    if ((!fit_slope(move, from, to, at, 3, window, &slope, &error) || slope < chord / 3) &&
-        (!fit_slope(move, from, to, at, 2, window, &slope, &error) || !(slope > 0)))
+    if ((!fit_slope(move, from, to, at, 3, apart, window, &slope, &error) || slope < chord / 3) &&
+        (!fit_slope(move, from, to, at, 2, apart, window, &slope, &error) || !(slope > 0)))
         return;
     move[at].speed = 1 / slope;
     move[at].error = error / (slope * slope);
 }
 
 void kr_path_follow(const struct kr_front *front, size_t count, const size_t *node,
-                    struct kr_path *path) {
-    find_moves(front, count, node, path);
+                    const char *alone, struct kr_path *path) {
+    find_moves(front, count, node, alone, path);
     for (size_t k = 0; k < path->count; k++) {
         find_direction(front->record, path, path->move + k);
         find_speed(front->record, path, k);

@@ -9,7 +9,9 @@
  *   tip          F(t) = max s of the nodes with arrival <= t; a move is a time at which it grows
  *   speed        T(s) = a + b (s - s0) + q (s - s0)^2 fitted to the moves within three horizons of s0:
  *                v(s0) = 1/b, with the standard error of b over b^2. Where b is below a third of the
- *                mean slope (a stop within the window) the straight line is fitted instead.
+ *                mean slope (a stop within the window) the straight line is fitted instead. Moves
+ *                within a horizon share bonds and are late or early together: residuals count as
+ *                one a horizon, not as one a move.
  */
 #ifndef KR_PATH_H
 #define KR_PATH_H
@@ -23,7 +25,8 @@ struct kr_move {
     double angle;        /* rad */
     double speed, error; /* m/s; NaN where the fit has too few moves */
     double front_energy; /* J/m^2; NaN: unknown */
-    int is_shared;       /* next to damage of another crack, so made by both: left out of fits */
+    int is_alone;        /* one tip's doing (kr_legs_tell_alone); others have no speed and no part in
+                            that of others */
 };
 
 struct kr_path {
@@ -48,9 +51,10 @@ double kr_path_place(const struct kr_front *front, const struct kr_path *path, s
 /** The point [m] at an arc length. */
 void kr_path_point(const struct kr_path *path, double s, double x[2]);
 
-/** Find the moves and their speeds from the nodes that lie beside the path. */
+/** Find the moves and their speeds from the nodes that lie beside the path; alone (front's n): which
+ *  nodes tell of this tip alone. */
 void kr_path_follow(const struct kr_front *front, size_t count, const size_t *node,
-                    struct kr_path *path);
+                    const char *alone, struct kr_path *path);
 
 void kr_path_clear(struct kr_path *path);
 

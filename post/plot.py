@@ -10,6 +10,8 @@ import os
 import sys
 
 try:
+    import numpy as np
+    from style import WISH
     from results import Case, Fault, Nothing, warn
     import curves
     import grid
@@ -35,6 +37,41 @@ PICTURES = {
 }
 
 
+def numbers(option, word, count):
+    """Finite numbers between commas."""
+    try:
+        values = [float(x) for x in word.split(",")]
+    except ValueError:
+        values = []
+    if len(values) != count or not np.isfinite(values).all():
+        raise Fault("%s: found `%s`, expected %s" % (option, word, ("a number", "lowest,highest")[count - 1]))
+    return values
+
+
+def take_wishes(words):
+    """Take what holds for all pictures off the command line; returns the rest."""
+    rest, words = [], list(words)
+    while words:
+        word = words.pop(0)
+        if word not in ("--format", "--dpi", "--limits") or not words:
+            rest.append(word)
+            continue
+        value = words.pop(0)
+        if word == "--format":
+            if value not in ("png", "svg", "pdf"):
+                raise Fault("--format: found `%s`, expected png, svg or pdf" % value)
+            WISH["format"] = value
+        elif word == "--dpi":
+            WISH["dpi"], = numbers(word, value, 1)
+            if not 20 <= WISH["dpi"] <= 2400:
+                raise Fault("--dpi: found `%s`, expected 20 to 2400" % value)
+        else:
+            WISH["limits"] = numbers(word, value, 2)
+            if not WISH["limits"][0] < WISH["limits"][1]:
+                raise Fault("--limits: found `%s`, expected the lower one first" % value)
+    return rest
+
+
 def arguments(words):
     """Folder, names of pictures, holes, voids, and what of the grid is asked for."""
     folder, names, round_ones, wanted = None, [], {"--disc": [], "--ball": []}, {}
@@ -47,8 +84,8 @@ def arguments(words):
             wanted["cut" if word == "--slice" else word[2:]] = words.pop(0)
         elif word == "--field" and words:
             name = words.pop(0)
-            names.append(name)
-            PICTURES[name] = maps.any_field(name)
+            names.append("field " + name)
+            PICTURES["field " + name] = maps.any_field(name)
         elif folder is None:
             folder = word
         elif word in PICTURES:
@@ -83,13 +120,14 @@ def draw_all(case, names):
 
 def main():
     try:
-        if sys.argv[1:2] == ["study"]:
-            study.draw(sys.argv[2])
+        words = take_wishes(sys.argv[1:])
+        if words[:1] == ["study"]:
+            study.draw(words[1])
             return
-        if sys.argv[1:2] == ["compare"]:
-            compare.draw(*sys.argv[2:])
+        if words[:1] == ["compare"]:
+            compare.draw(words[1:])
             return
-        folder, names, holes, voids, wanted = arguments(sys.argv[1:])
+        folder, names, holes, voids, wanted = arguments(words)
         case = Case(folder, holes, voids)
         PICTURES["grid"] = lambda case: grid.grid(case, grid.Choice(case, **wanted))
         if not draw_all(case, names):

@@ -70,7 +70,7 @@ void kr_report_branches(const struct kr_report *report, const char *path) {
     struct kr_table table = kr_table_begin(
         path, "branch,parent,start,end,start_time [s],end_time [s],start_x [m],start_y [m],"
               "end_x [m],end_y [m],length [m],mean_speed [m/s],top_speed [m/s],trapped [s],"
-              "energy [J/m],pores");
+              "energy [J/m],pores,top_speed_error [m/s]");
     for (size_t b = 0; b < tree->count; b++) {
         const struct kr_branch *branch = tree->branch + b;
         const double value[] = {branch->first_time, branch->last_time, branch->from[0],
@@ -84,6 +84,7 @@ void kr_report_branches(const struct kr_report *report, const char *path) {
         fprintf(table.file, ",");
         for (size_t k = 0; k < branch->n_holes; k++)
             fprintf(table.file, "%s%d", k ? ";" : "", branch->hole[k]);
+        kr_table_put(&table, branch->top_error);
         fprintf(table.file, "\n");
     }
     kr_table_finish(&table);
@@ -117,20 +118,23 @@ void kr_report_events(const struct kr_report *report, const char *path) {
 /** All branches together. */
 struct total {
     double length, energy;        /* m, J/m */
-    double mean_speed, top_speed; /* m/s: mean over the time of running of all tips */
+    double mean_speed, top_speed, top_error; /* m/s: mean over the time of running of all tips */
     double first_branching;       /* s; infinite: none */
     double arrival;               /* s: of the last tip */
 };
 
 static struct total total_of(const struct kr_tree *tree) {
-    struct total total = {0, 0, NAN, NAN, INFINITY, tree->count ? 0 : NAN};
+    struct total total = {0, 0, NAN, NAN, NAN, INFINITY, tree->count ? 0 : NAN};
     double time = 0;
     for (size_t b = 0; b < tree->count; b++) {
         const struct kr_branch *branch = tree->branch + b;
         total.length += branch->length;
         total.energy += branch->energy;
         time += branch->last_time - branch->first_time - branch->trapped;
-        total.top_speed = fmax(total.top_speed, branch->top_speed);
+        if (isnan(total.top_speed) || branch->top_speed > total.top_speed) {
+            total.top_speed = branch->top_speed;
+            total.top_error = branch->top_error;
+        }
         total.arrival = fmax(total.arrival, branch->last_time);
         if (branch->start == KR_START_FORK)
             total.first_branching = fmin(total.first_branching, branch->first_time);
@@ -193,6 +197,7 @@ static void put_tree(FILE *file, const struct kr_report *report) {
     put(file, "mean_speed_over_rayleigh", total.mean_speed / rayleigh, "1");
     put(file, "top_speed", total.top_speed, "m/s");
     put(file, "top_speed_over_rayleigh", total.top_speed / rayleigh, "1");
+    put(file, "top_speed_error", total.top_error, "m/s");
     put(file, "speed_window", 2 * kr_path_window(report->record), "m");
     put(file, "crack_energy", total.energy, "J/m");
     put(file, "scattered_energy", tree->legs.scattered, "J/m");
@@ -270,8 +275,8 @@ static void say_tree(const struct kr_report *report) {
         kr_say("  mean speed     %.0f m/s, %.2f of Rayleigh's %.0f m/s", total.mean_speed,
                total.mean_speed / rayleigh, rayleigh);
     if (isfinite(total.top_speed))
-        kr_say("  top speed      %.0f m/s, %.2f of it, over %.2f mm of path", total.top_speed,
-               total.top_speed / rayleigh, 2e3 * kr_path_window(report->record));
+        kr_say("  top speed      %.0f +- %.0f m/s, %.2f of it, over %.2f mm of path",
+               total.top_speed, total.top_error, total.top_speed / rayleigh, 2e3 * kr_path_window(report->record));
 }
 
 /** Share of the mass that the heaviest fragment has, in percent. */
@@ -297,7 +302,7 @@ void kr_report_say(const struct kr_report *report) {
     if (tree->countable)
         say_tree(report);
     else if (record->dim == 3)
-        kr_say("  branches       not followed: crack trees are of bodies in 2D");
+        kr_say("  crack front    through the thickness: front.csv; its area over time: area.csv");
     else
         kr_say("  branches       not to be counted: %.0f %% of all nodes are damaged",
                100.0 * (double)tree->damaged / (double)record->n);

@@ -7,7 +7,7 @@ import numpy as np
 
 from maps import outline_material, paint, show
 from results import Case, Fault, Nothing, warn
-from style import DAMAGE, DPI, WIDTH, open_axes, plt
+from style import DAMAGE, DPI, WIDTH, WISH, open_axes, plt
 
 MOST = 40  # maps on the sheet; more are too small to be read
 
@@ -22,8 +22,8 @@ def table_of(folder):
 
 def save(figure, folder, name):
     os.makedirs(os.path.join(folder, "pictures"), exist_ok=True)
-    path = os.path.join(folder, "pictures", name + ".png")
-    figure.savefig(path, dpi=DPI)
+    path = os.path.join(folder, "pictures", name + "." + WISH["format"])
+    figure.savefig(path, dpi=WISH["dpi"])
     plt.close(figure)
     print(path, flush=True)
 
@@ -76,7 +76,8 @@ def branching(folder, rows):
                 label=["met a pore", "none"])
     beside.set_xlabel("runs")
     beside.xaxis.get_major_locator().set_params(integer=True)
-    beside.legend(fontsize=6)
+    if not met.all():
+        beside.legend(fontsize=6, loc="lower center", bbox_to_anchor=(0.5, 1))
     for some in (axes, beside):
         open_axes(some)
     save(figure, folder, "branching")

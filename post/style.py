@@ -7,6 +7,8 @@ import matplotlib.pyplot as plt
 from matplotlib.colors import LinearSegmentedColormap
 
 DPI = 300
+# What the command line asks of all pictures; `limits` (lowest, highest) of the colours of a field.
+WISH = {"format": "png", "dpi": DPI, "limits": None}
 WIDTH = 7.0  # inches: a page's text
 
 # Okabe and Ito's colours: told apart with any kind of colour vision.

@@ -125,7 +125,8 @@ static void begin_branch(struct kr_tree *tree, size_t c, size_t parent) {
                                                      .first_time = leg->first_time,
                                                      .from = {leg->from[0], leg->from[1]},
                                                      .mean_speed = NAN,
-                                                     .top_speed = NAN};
+                                                     .top_speed = NAN,
+                                                     .top_error = NAN};
     add_leg(tree, tree->count, c);
 }
 
@@ -142,21 +143,36 @@ static void place_leg(struct kr_tree *tree, size_t c) {
         begin_branch(tree, c, leg->parent == NONE ? 0 : tree->branch_of_leg[leg->parent]);
 }
 
-/** Mean over the time of running, and the greatest speed of a fit that has its whole window, or of
- *  the middle of a leg shorter than that. */
+/** The greatest speed of a fit that has its whole window on the part of a leg that the tip ran alone,
+ *  or of the middle of a part shorter than that. */
+static void find_top(struct kr_branch *branch, const struct kr_path *path, double window) {
+    size_t first = 0, last = path->count;
+    double rim;
+    while (first < last && !path->move[first].is_alone)
+        first++;
+    while (last > first && !path->move[last - 1].is_alone)
+        last--;
+    if (first == last)
+        return;
+    rim = fmin(window, 0.45 * (path->move[last - 1].s - path->move[first].s));
+    for (size_t m = first; m < last; m++) {
+        const struct kr_move *move = path->move + m;
+        if (isnan(move->speed) || move->s < path->move[first].s + rim ||
+            move->s > path->move[last - 1].s - rim || branch->top_speed >= move->speed)
+            continue; /* top_speed is not a number before the first */
+        branch->top_speed = move->speed;
+        branch->top_error = move->error;
+    }
+}
+
+/** Mean over the time of running, and the top speed. */
 static void find_speeds(struct kr_tree *tree, struct kr_branch *branch) {
     const double window = kr_path_window(tree->front->record);
     double time = branch->last_time - branch->first_time - branch->trapped;
     if (time > 0 && branch->length > 0)
         branch->mean_speed = branch->length / time;
-    for (size_t k = 0; k < branch->n_legs; k++) {
-        const struct kr_path *path = &tree->legs.item[branch->leg[k]].path;
-        double begin = path->move[0].s, end = path->move[path->count - 1].s;
-        double rim = fmin(window, 0.45 * (end - begin));
-        for (size_t m = 0; m < path->count; m++)
-            if (path->move[m].s >= begin + rim && path->move[m].s <= end - rim)
-                branch->top_speed = fmax(branch->top_speed, path->move[m].speed);
-    }
+    for (size_t k = 0; k < branch->n_legs; k++)
+        find_top(branch, &tree->legs.item[branch->leg[k]].path, window);
 }
 
 /* ---- events ------------------------------------------------------------------------------ */

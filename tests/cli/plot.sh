@@ -66,11 +66,22 @@ draws_all() {
     [ "$(wc -l <"$work/paths")" -eq 8 ] && [ -s "$run/pictures/crack.mp4" ]
 }
 draws_one() { [ "$(plot tip)" = "$run/pictures/tip.png" ]; }
-draws_a_field() { plot --field Damage && is_png damage 10000 && [ "$(/usr/bin/python3 -c "
+draws_a_field() { plot --field Damage && is_png field-damage 10000 && [ "$(/usr/bin/python3 -c "
 import sys, numpy as np
 from PIL import Image
 picture = Image.open(sys.argv[1])
-print(round(picture.info['dpi'][0]), picture.size[0], np.asarray(picture.convert('L')).std() > 10)" "$run/pictures/damage.png")" = "300 2100 True" ]; }
+print(round(picture.info['dpi'][0]), picture.size[0], np.asarray(picture.convert('L')).std() > 10)" "$run/pictures/field-damage.png")" = "300 2100 True" ]; }
+draws_other_formats() {
+    [ "$(plot tip --format svg)" = "$run/pictures/tip.svg" ] && grep -q '<svg' "$run/pictures/tip.svg" &&
+        plot --field Damage --dpi 100 --limits 0.2,0.4 && is_png field-damage 3000 &&
+        [ "$(/usr/bin/python3 -c "from PIL import Image; import sys; print(Image.open(sys.argv[1]).size[0])" \
+            "$run/pictures/field-damage.png")" = 700 ]
+}
+compares_a_field() {
+    "$build/kirsch-plot" compare "$run" "$run" --field Stored_Elastic_Energy_Density --at 60 >"$work/said" &&
+        grep -q 'largest difference of stored elastic energy density (kJ/m³): 0$' "$work/said" &&
+        is_png compare-stored_elastic_energy_density 10000
+}
 draws_the_tree() { plot tree && is_png tree 10000; }
 without_ffmpeg() { # a PATH on which there is none
     stops 0 'warning: no film: cannot start ffmpeg' env PATH="$work" "$build/kirsch-plot" \
@@ -133,6 +144,9 @@ check draws_all_pictures draws_all
 check draws_one_picture draws_one
 check draws_a_field draws_a_field
 check draws_the_tree draws_the_tree
+check draws_other_formats draws_other_formats
+check compares_a_field compares_a_field
+check refuses_limits_upside_down stops 2 'limits: found .2,1., expected the lower one first' plot --field Damage --limits 2,1
 check refuses_an_unknown_field stops 2 'unknown field `Damge`; the run has Damage' plot --field Damge
 check refuses_an_unknown_picture stops 2 'unknown picture `dammage`' plot dammage
 check goes_on_without_ffmpeg without_ffmpeg
