@@ -127,6 +127,17 @@ void kr_h5_write_int64(struct kr_h5 *file, const char *name, size_t rows, size_t
 
 /* ---- reading ----------------------------------------------------------------------------- */
 
+/* A damaged file may tell of more numbers than any machine holds. Deflate packs to a thousandth at best. */
+static int has_room(hid_t set, const hsize_t size[2]) {
+    hid_t file = H5Iget_file_id(set), stored = H5Dget_type(set);
+    hsize_t bytes = 0;
+    double wanted = (double)size[0] * (double)(size[1] ? size[1] : 1) * (double)H5Tget_size(stored);
+    H5Fget_filesize(file, &bytes);
+    H5Tclose(stored);
+    H5Fclose(file);
+    return wanted <= 1100.0 * (double)bytes;
+}
+
 static hid_t open_to_read(const struct kr_h5 *file, const char *name, hsize_t size[2]) {
     hid_t set = -1;
     if (!kr_h5_has(file, name))
@@ -136,6 +147,8 @@ static hid_t open_to_read(const struct kr_h5 *file, const char *name, hsize_t si
         kr_h5_fail_read(file, name, "it is no array, or damaged");
     if (!shape_of(set, size))
         kr_h5_fail_read(file, name, "it has neither one nor two dimensions");
+    if (!has_room(set, size))
+        kr_h5_fail_read(file, name, "it tells of more numbers than the file can hold: it is damaged; make it again");
     return set;
 }
 

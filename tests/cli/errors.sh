@@ -30,10 +30,23 @@ other_file() {
     stops 2 "kirsch run" "$build/kirsch-solve" --output "$work/other" "$work/case.yaml"
 }
 
+# One array of the node file replaced by what Python makes of it.
+changed_nodes() { # words, Python statement about `file`
+    solve --set solver.end_time='5 us' || return
+    mkdir -p "$work/changed"
+    cp "$work/plate/plate.nodes.h5" "$work/changed/"
+    /usr/bin/python3 -c "import h5py, sys; file = h5py.File(sys.argv[1], 'r+'); $2" "$work/changed/plate.nodes.h5" || return
+    stops 2 "$1" "$build/kirsch-solve" --output "$work/changed" "$work/case.yaml"
+}
+
 check no_node_file no_nodes
 check empty_node_file cut_nodes 0
 check node_file_cut_in_its_head cut_nodes 700
 check node_file_cut_in_its_data cut_nodes 20000
+# Both found by the fuzzer: a place far beyond the end between good ones, and an array of a million millions.
+check cell_that_begins_beyond_the_end changed_nodes "expected ascending places" "file['cells/first'][7] = 2**39"
+check array_larger_than_the_file changed_nodes "more numbers than the file can hold" \
+    "del file['sets/top']; file.create_dataset('sets/top', shape=(10**12,), dtype='i8', chunks=(1000,))"
 check results_as_node_file other_file
 check nodes_of_another_horizon stops 2 "made for 0.0015 m; run kirsch-nodes again" \
     solve --set nodes.horizon='1.6 mm'
