@@ -12,6 +12,7 @@
 
 #include "record.h"
 
+#include <errno.h>
 #include <setjmp.h>
 #include <stdlib.h>
 #include <string.h>
@@ -38,7 +39,8 @@ static char *make_run(const char *path) {
     size_t n;
     while (from && to && (n = fread(part, 1, sizeof part, from)))
         fwrite(part, 1, n, to);
-    if (!from || !to || fclose(to) || fclose(from) || mkdir(sub, 0777) || !place || symlink(place, crack))
+    if (!from || !to || fclose(to) || fclose(from) || !place || (mkdir(sub, 0777) && errno != EEXIST) ||
+        (symlink(place, crack) && errno != EEXIST)) /* made before by a process with the same folder */
         abort();
     kr_free(whole);
     kr_free(sub);
