@@ -68,17 +68,21 @@ void kr_body_mix(struct kr_body *body) {
         rounded->factor[i] = (float)body->bonds->factor[i];
 }
 
-/* Bring `rounded` up to date. u may have been changed by anyone since the last time. */
+/* Bring `rounded` up to date where u may have been changed by anyone since the last time. */
 static void round_displacements(struct kr_body *body) {
-    for (int d = 0; d < body->dim && body->rounded; d++) {
+    struct kr_rounded *rounded = body->rounded;
+    if (!rounded)
+        return;
+    for (int d = 0; d < body->dim && !rounded->current; d++) {
         const double *restrict u = body->u[d];
-        float *restrict high = body->rounded->high[d], *restrict low = body->rounded->low[d];
+        float *restrict high = rounded->high[d], *restrict low = rounded->low[d];
 #pragma omp parallel for simd schedule(static)
         for (size_t i = 0; i < body->n; i++) {
             high[i] = (float)u[i];
             low[i] = (float)(u[i] - (double)high[i]);
         }
     }
+    rounded->current = 0;
 }
 
 static struct kr_kernel_work work_of(struct kr_body *body) {
@@ -206,8 +210,29 @@ void kr_body_product(struct kr_body *body, double *const v[], double *const prod
     }
 }
 
+/* As kr_body_advance, and the rounding of what is at hand: a pass over the nodes is spared. */
+static void advance_and_round(struct kr_body *body, double push, double drift) {
+    for (int d = 0; d < body->dim; d++) {
+        double *restrict u = body->u[d], *restrict v = body->v[d];
+        const double *restrict force = body->force[d];
+        float *restrict high = body->rounded->high[d], *restrict low = body->rounded->low[d];
+#pragma omp parallel for simd schedule(static)
+        for (size_t i = 0; i < body->n; i++) {
+            v[i] += push * force[i];
+            u[i] += drift * v[i];
+            high[i] = (float)u[i];
+            low[i] = (float)(u[i] - (double)high[i]);
+        }
+    }
+    body->rounded->current = 1;
+}
+
 void kr_body_advance(struct kr_body *body, double kick, double drift) {
     const double push = kick / body->bonds->material.density;
+    if (body->rounded) {
+        advance_and_round(body, push, drift);
+        return;
+    }
     for (int d = 0; d < body->dim; d++) {
         double *restrict u = body->u[d], *restrict v = body->v[d];
         const double *restrict force = body->force[d];

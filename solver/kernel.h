@@ -12,6 +12,7 @@
 struct kr_rounded {
     float *high[3], *low[3]; /* m */
     float *factor;           /* lambda */
+    int current;             /* high and low are those of u: kr_body_advance left them so */
 };
 
 /** What a kernel reads and writes, all arrays from kr_bonds_padded. */
