@@ -15,8 +15,15 @@ static const char usage[] =
     "\n"
     "Reads run.h5 and plate.nodes.h5 in the case's folder and finds the cracks of the run: where\n"
     "and when each began, how fast it ran, where it branched, merged, met a hole or stopped.\n"
-    "Writes tips.csv, branches.csv, events.csv and summary.csv there, and boxes.csv where the deck\n"
-    "has `track.boxes`; of a solid front.csv and area.csv.";
+    "Writes there\n"
+    "\n"
+    "  tips.csv, branches.csv, events.csv   the tree of cracks of a plate\n"
+    "  damage.csv       whose each damaged node is: of a branch, or of a speck\n"
+    "  boxes.csv        tips in the boxes of the deck (track.boxes)\n"
+    "  front.csv        of a solid: the front of the crack as a curve per time, with its speed\n"
+    "  area.csv         of a solid: the area of the crack over time\n"
+    "  fragments.csv    the pieces that hang together, with mass, momentum and extent\n"
+    "  summary.csv      all together";
 
 static void stop_on_unknown(const struct kr_case_arguments *arguments) {
     if (arguments->n_left)
@@ -99,8 +106,12 @@ static struct kr_fragments break_up(struct kr_deck *deck, const struct kr_case *
 /** What only solids have. */
 static void write_sheets(const struct kr_case *c, const struct kr_record *record) {
     char *front = kr_case_file(c, "front.csv"), *area = kr_case_file(c, "area.csv");
-    kr_sheet_front(record, c, front);
-    kr_sheet_area(record, area);
+    struct kr_sheet *sheet = kr_sheet_create(record);
+    if (c->boxes.count)
+        kr_warn("track.boxes are for plates: the front of a solid is found without");
+    kr_sheet_write_front(sheet, front);
+    kr_sheet_write_area(sheet, area);
+    kr_sheet_free(sheet);
     kr_free(front);
     kr_free(area);
 }
