@@ -4,6 +4,7 @@ import numpy as np
 
 from maps import outline_holes, paint, panels, save, show
 from results import Nothing, read_csv
+from shape import frame
 from style import COLOURS, DAMAGE, box_label, open_axes, plt
 
 STYLES = "-", "--", "-.", ":"  # of the first, second ... seven branches
@@ -54,9 +55,9 @@ def speed(case):
     tips = tips_by_box(case)
     names, _ = case.steps()
     figure, (axes,), bar, pixels = panels(case, 1)
-    image = show(axes, case, paint(case, case.field(names[-1], "Damage"), pixels), DAMAGE, 1)
-    image.set_alpha(0.45)
-    outline_holes(axes, case)
+    painted = paint(case, case.field(names[-1], "Damage"), pixels)
+    show(axes, case, painted, DAMAGE, 1).set_alpha(0.45)
+    outline_holes(axes, case, painted)
     bar.remove()
     for x, _, _ in holes_on_path(case, tips):
         axes.axvline(x, linestyle=(0, (4, 3)), linewidth=0.7, color="0.45")
@@ -74,12 +75,12 @@ def speed(case):
             highest = max(highest, np.nanmax(np.append(bold, 0)))
             label = None
     over.set_ylim(0, max(1, 1.08 * highest))
-    lower, upper = case.box()
+    lower, upper = frame(case)
     axes.set_xlim(lower[0], upper[0])
     over.set_ylabel("crack speed / Rayleigh speed")
     over.set_title("bold: mean over %d moves of the tip" % SMOOTH, loc="right", pad=3)
     if len(tips) > 1:
-        over.legend(loc="lower left", ncols=2)
+        over.legend(loc="lower left", ncols=2, frameon=True, framealpha=0.85, edgecolor="none")
     return save(case, figure, "speed")
 
 

@@ -9,8 +9,6 @@
 #include "base/memory.h"
 #include "search.h"
 
-#define NONE KR_FRONT_NONE
-
 static const double AROUND = 1.5; /* horizons that a plane is laid through */
 static const double CUT_OFF = 0.1; /* horizons */
 
@@ -29,6 +27,10 @@ void kr_sheet_free(struct kr_sheet *sheet) {
     kr_front_free(sheet->front);
     kr_free(sheet->patch);
     kr_free(sheet);
+}
+
+double kr_sheet_when(const struct kr_sheet *sheet, size_t i) {
+    return isinf(sheet->front->arrival[i]) ? sheet->front->time[i] : sheet->front->arrival[i];
 }
 
 /* ---- planes ------------------------------------------------------------------------------ */
@@ -209,8 +211,9 @@ void kr_sheet_lay(struct kr_sheet *sheet) {
     }
     borrow_widths(sheet, &damaged, is_cut);
     for (size_t i = 0; i < front->n; i++)
-        if (front->time[i] >= 0 && front->source_of[i] != NONE)
-            sheet->patch[i].area = record->volume[front->node[i]] / sheet->patch[i].width;
+        if (front->time[i] >= 0)
+            sheet->patch[i].area = record->volume[front->node[i]] /
+                                   fmax(sheet->patch[i].width, cbrt(record->volume[front->node[i]]));
     kr_free(is_cut);
     forget(&damaged);
     forget(&body);

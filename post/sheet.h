@@ -9,7 +9,7 @@
  *              k = (1 - (r/delta)^2)^2 in the plane and g = 1 - d/delta across: B tells how much of the disc
  *              lies in the body. Where D is cut off on one side (its mean is farther than delta/10 from that of
  *              B, at the front) the mean w of nodes nearby where it is not, else of all such.
- *   area       of a node: V/w. Damage beside a crack makes w larger, and the area no larger.
+ *   area       of a node: V/w, w at least V^(1/3). Damage beside a crack makes w larger, and the area no larger.
  *   time       T = a + b.u + u.Q u over the damaged nodes of the same crack within W = 2 delta, u in the plane,
  *              weights (1 - (u/W)^2)^2: there the front passed at a, with the speed 1/|b| along b/|b|; its error
  *              as in path.h, damage within a horizon counting as one. A front with a radius R seems faster by
@@ -20,7 +20,8 @@
 
 #include "front.h"
 
-/** Of a damaged node. The pre-crack's and those of specks have an area of 0 and no time. */
+/** Of a damaged node; one of the pre-crack has an area of 0 and no time. Specks count, too: ligaments between voids
+ *  may be shorter than three horizons. */
 struct kr_patch {
     double x[3], normal[3]; /* m: nearest point of the plane; of length 1 */
     double width;           /* m: w */
@@ -45,6 +46,9 @@ struct kr_sheet_point {
 /** Find the sheets of a record in 3D, which must outlive them. */
 struct kr_sheet *kr_sheet_create(const struct kr_record *record);
 void kr_sheet_free(struct kr_sheet *sheet);
+
+/** When the front came to a node [s]: its arrival, in a speck the time of its damage. */
+double kr_sheet_when(const struct kr_sheet *sheet, size_t i);
 
 /** Steps of kr_sheet_create: planes, widths and areas; times and speeds. */
 void kr_sheet_lay(struct kr_sheet *sheet);

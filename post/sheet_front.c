@@ -139,8 +139,8 @@ void kr_sheet_write_front(const struct kr_sheet *sheet, const char *path) {
     double first = INFINITY, last = 0, every;
     for (size_t i = 0; i < front->n; i++)
         if (!isnan(sheet->patch[i].time)) {
-            first = fmin(first, front->arrival[i]);
-            last = fmax(last, front->arrival[i]);
+            first = fmin(first, kr_sheet_when(sheet, i));
+            last = fmax(last, kr_sheet_when(sheet, i));
         }
     every = step * fmax(1, ceil((last - first) / step / MOST_FRONTS));
     for (int k = 0; first + k * every <= last; k++)
@@ -152,7 +152,7 @@ void kr_sheet_write_front(const struct kr_sheet *sheet, const char *path) {
 static double area_at(const struct kr_sheet *sheet, double time) {
     double area = 0;
     for (size_t i = 0; i < sheet->front->n; i++)
-        if (sheet->front->arrival[i] <= time)
+        if (kr_sheet_when(sheet, i) <= time)
             area += sheet->patch[i].area;
     return area;
 }

@@ -10,8 +10,6 @@
 #include "least.h"
 #include "search.h"
 
-#define NONE KR_FRONT_NONE
-
 static const double WINDOW = 2; /* horizons */
 enum { TERMS = 6 };
 
@@ -47,7 +45,7 @@ static double add(const struct kr_sheet *sheet, const struct kr_patch *patch, do
     if (fabs(across) > horizon || part <= 0)
         return 0;
     kr_least_add(fit, (double[TERMS]){part, part * u, part * v, part * u * u, part * u * v, part * v * v},
-                 part * (front->arrival[j] - begin));
+                 part * (kr_sheet_when(sheet, j) - begin));
     return part * part * sheet->patch[j].area / (horizon * horizon);
 }
 
@@ -58,15 +56,16 @@ static void time_patch(const struct kr_sheet *sheet, size_t i, const int *near, 
     struct kr_least fit = {.terms = TERMS};
     double e[2][3], x[KR_LEAST_MOST], inverse[KR_LEAST_MOST][KR_LEAST_MOST], left, slope, variance;
     span(patch, e);
-    double independent = add(sheet, patch, e, front->arrival[i], i, &fit);
+    const double begin = kr_sheet_when(sheet, i);
+    double independent = add(sheet, patch, e, begin, i, &fit);
     for (size_t k = 0; k < count; k++) {
         size_t j = (size_t)near[k];
         if (front->time[j] >= 0 && front->source_of[j] == front->source_of[i])
-            independent += add(sheet, patch, e, front->arrival[i], j, &fit);
+            independent += add(sheet, patch, e, begin, j, &fit);
     }
     if (!kr_least_solve(&fit, x, inverse, &left))
         return;
-    patch->time = front->arrival[i] + x[0];
+    patch->time = begin + x[0];
     slope = hypot(x[1], x[2]);
     if (!(slope > 0))
         return;
@@ -88,7 +87,7 @@ void kr_sheet_time(struct kr_sheet *sheet) {
         struct kr_patch *patch = sheet->patch + i;
         size_t count;
         patch->time = patch->speed = patch->error = NAN;
-        if (front->time[i] < 0 || front->source_of[i] == NONE)
+        if (front->time[i] < 0)
             continue;
         count = kr_search_near(search, i, near, room);
         if (count > room) {
