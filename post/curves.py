@@ -67,20 +67,25 @@ def speed(case):
     for box, t in tips:
         colour = COLOURS[(box - 1) % len(COLOURS)]
         style = STYLES[(box - 1) // len(COLOURS) % len(STYLES)]
-        label = box_label(box, tips)
+        numbered = len(tips) > 1
         for some in pieces(t, jump):
             x, values, bold = t["x"][some], t["speed"][some], smooth(t["speed"][some])
+            there = np.flatnonzero(np.isfinite(bold))
+            if numbered and len(there):
+                at = there[len(there) // 2]
+                over.annotate("%d" % box, (x[at], bold[at]), xytext=(0, 4), textcoords="offset points",
+                              ha="center", color=colour, fontsize=8, fontweight="bold")
+                numbered = False
             over.plot(x, values, color=colour, linewidth=0.4, alpha=0.45)
-            over.plot(x, bold, style, color=colour, linewidth=1.4, label=label)
+            over.plot(x, bold, style, color=colour, linewidth=1.4)
             highest = max(highest, np.nanmax(np.append(bold, 0)))
-            label = None
     over.set_ylim(0, max(1, 1.08 * highest))
     lower, upper = frame(case)
     axes.set_xlim(lower[0], upper[0])
     over.set_ylabel("crack speed / Rayleigh speed")
     over.set_title("bold: mean over %d moves of the tip" % SMOOTH, loc="right", pad=3)
     if len(tips) > 1:
-        over.legend(loc="lower left", ncols=2, frameon=True, framealpha=0.85, edgecolor="none")
+        over.set_title("at the curves: numbers of branches", loc="left", pad=3)
     return save(case, figure, "speed")
 
 

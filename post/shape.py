@@ -50,7 +50,8 @@ def frame(case):
     if "frame" not in case.rasters:
         lower, upper = (corner[shown(case)] for corner in case.box())
         if is_moved(case):
-            point = shape_of(case, case.steps()[0][-1])[0]
+            step = case.steps()[0][-1]
+            point = shape_of(case, step)[0][~torn_corners(case, step)]  # splinters may fly out of it
             lower, upper = np.minimum(lower, point.min(axis=0)), np.maximum(upper, point.max(axis=0))
         case.rasters["frame"] = lower, upper
     return case.rasters["frame"]
@@ -66,14 +67,20 @@ def shape_of(case, step=None):
     return moved(case, step)
 
 
+def torn_corners(case, step):
+    """Of all corners of all cells, which are of cells damaged past the threshold."""
+    first = case.cells()[1]
+    torn = case.field(step, "Damage") >= case.run().attrs["damage_threshold"]
+    return np.repeat(torn, np.diff(first))
+
+
 def moved(case, step):
     """Each corner goes with the mean of the cells around it that are whole; what is damaged past the threshold
     goes by itself, so that a crack opens."""
     point, first, vertex, _, _ = case.cells()
     move = 1e3 * WISH["scale"] * case.field(step, "Displacement")[:, :2]
-    torn = case.field(step, "Damage") >= case.run().attrs["damage_threshold"]
     owner = np.repeat(np.arange(len(first) - 1), np.diff(first))
-    whole = ~torn[owner]
+    whole = ~torn_corners(case, step)
     count = np.bincount(vertex[whole], minlength=len(point))
     mean = np.stack([np.bincount(vertex[whole], move[owner[whole], a], len(point)) for a in (0, 1)], axis=1)
     mean /= np.maximum(count, 1)[:, None]
