@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Least squares of a few terms: sum (value - sum_k x_k power_k)^2 -> min, by Cholesky's factors of the normal
- * equations. The powers should be of order 1.
+ * Least squares of a few terms: sum (value - sum_k x_k power_k)^2 -> min, by Cholesky's factors of
+ * the normal equations. The powers should be of order 1.
  */
 #ifndef KR_LEAST_H
 #define KR_LEAST_H

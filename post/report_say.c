@@ -56,7 +56,8 @@ static void say_tree(const struct kr_report *report) {
                total.mean_speed / rayleigh, rayleigh);
     if (isfinite(total.top_speed))
         kr_say("  top speed      %.0f +- %.0f m/s, %.2f of it, over %.2f mm of path",
-               total.top_speed, total.top_error, total.top_speed / rayleigh, 2e3 * kr_path_window(report->record));
+               total.top_speed, total.top_error, total.top_speed / rayleigh,
+               2e3 * kr_path_window(report->record));
 }
 
 /** Share of the mass that the heaviest fragment has, in percent. */

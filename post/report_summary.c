@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * summary.csv. A value that does not exist (the speed of a crack that never grew) leaves its line out.
+ * summary.csv. A value that does not exist (the speed of a crack that never grew) leaves its line
+ * out.
  */
 #include <math.h>
 #include <stdio.h>
 
 #include "report.h"
-#include "table.h"
+#include "csv_write.h"
 #include "total.h"
 
 static void put(FILE *file, const char *name, double value, const char *unit) {
@@ -70,7 +71,7 @@ static void put_tree(FILE *file, const struct kr_report *report) {
 
 void kr_report_summary(const struct kr_report *report, const char *path) {
     const struct kr_record *record = report->record;
-    struct kr_table table = kr_table_begin(path, "name,value,unit");
+    struct kr_csv_writer table = kr_csv_begin(path, "name,value,unit");
     FILE *file = table.file;
     put(file, "nodes", (double)record->n, "1");
     put(file, "bonds", (double)record->bonds, "1");
@@ -88,5 +89,5 @@ void kr_report_summary(const struct kr_report *report, const char *path) {
         put_track(file, report, box);
     if (report->tree->countable)
         put_tree(file, report);
-    kr_table_finish(&table);
+    kr_csv_finish(&table);
 }

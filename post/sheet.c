@@ -9,7 +9,7 @@
 #include "base/memory.h"
 #include "search.h"
 
-static const double AROUND = 1.5; /* horizons that a plane is laid through */
+static const double AROUND = 1.5;  /* horizons that a plane is laid through */
 static const double CUT_OFF = 0.1; /* horizons */
 
 struct kr_sheet *kr_sheet_create(const struct kr_record *record) {
@@ -108,8 +108,8 @@ struct disc {
     double volume[2], mean[2][3];
 };
 
-static void add_to_disc(struct disc *disc, int which, const struct kr_patch *patch,
-                        const double *x, double volume, double horizon) {
+static void add_to_disc(struct disc *disc, int which, const struct kr_patch *patch, const double *x,
+                        double volume, double horizon) {
     double d[3] = {x[0] - patch->x[0], x[1] - patch->x[1], x[2] - patch->x[2]}, across, r, w;
     across = d[0] * patch->normal[0] + d[1] * patch->normal[1] + d[2] * patch->normal[2];
     r = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - across * across) / (horizon * horizon);
@@ -140,7 +140,8 @@ static struct disc look_around(const struct kr_record *record, const struct kr_p
     for (size_t k = 0; k <= count; k++) {
         size_t j = k < count ? (size_t)near[k] : i;
         if (!isinf(record->damage_time[j]))
-            add_to_disc(&disc, 0, patch, record->position + 3 * j, record->volume[j], record->horizon);
+            add_to_disc(&disc, 0, patch, record->position + 3 * j, record->volume[j],
+                        record->horizon);
         add_to_disc(&disc, 1, patch, record->position + 3 * j, record->volume[j], record->horizon);
     }
     return disc;
@@ -212,8 +213,9 @@ void kr_sheet_lay(struct kr_sheet *sheet) {
     borrow_widths(sheet, &damaged, is_cut);
     for (size_t i = 0; i < front->n; i++)
         if (front->time[i] >= 0)
-            sheet->patch[i].area = record->volume[front->node[i]] /
-                                   fmax(sheet->patch[i].width, cbrt(record->volume[front->node[i]]));
+            sheet->patch[i].area =
+                record->volume[front->node[i]] /
+                fmax(sheet->patch[i].width, cbrt(record->volume[front->node[i]]));
     kr_free(is_cut);
     forget(&damaged);
     forget(&body);

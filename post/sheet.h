@@ -1,27 +1,30 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Cracks of a solid as sheets: what each damaged node tells of the sheet that it belongs to, from the spread of
- * damage (front.h). Nothing is assumed about where a crack lies or which way it runs.
+ * Cracks of a solid as sheets: what each damaged node tells of the sheet that it belongs to, from
+ * the spread of damage (front.h). Nothing is assumed about where a crack lies or which way it runs.
  *
- *   plane      of a node: through the mean of the damaged nodes within 1.5 horizons, normal to the direction in
- *              which these scatter least (the least eigenvector of their second moments)
- *   thickness  of the damage, w = delta sum_D k V / sum_B k g V over the damaged nodes D and all nodes B, with
- *              k = (1 - (r/delta)^2)^2 in the plane and g = 1 - d/delta across: B tells how much of the disc
- *              lies in the body. Where D is cut off on one side (its mean is farther than delta/10 from that of
- *              B, at the front) the mean w of nodes nearby where it is not, else of all such.
- *   area       of a node: V/w, w at least V^(1/3). Damage beside a crack makes w larger, and the area no larger.
- *   time       T = a + b.u + u.Q u over the damaged nodes of the same crack within W = 2 delta, u in the plane,
- *              weights (1 - (u/W)^2)^2: there the front passed at a, with the speed 1/|b| along b/|b|; its error
- *              as in path.h, damage within a horizon counting as one. A front with a radius R seems faster by
- *              0.05 (W/R)^2: what the cone T = r/v leaves of the second order.
+ *   plane      of a node: through the mean of the damaged nodes within 1.5 horizons, normal to the
+ *              direction in which these scatter least (least eigenvector of their second moments)
+ *   width      of the damage, w = delta sum_D k V / sum_B k g V over the damaged nodes D and all
+ *              nodes B, k = (1 - (r/delta)^2)^2 in the plane and g = 1 - d/delta across: B tells
+ *              how much of the disc lies in the body. Where the front cuts D off (its mean is
+ *              farther than delta/10 from that of B), the mean w of nodes nearby where it does not,
+ *              else of all such
+ *   area       of a node: V/w, w at least V^(1/3). Damage beside a crack makes w larger, and the
+ *              area no larger
+ *   time       T = a + b.u + u.Q u over the damage of the same crack within W = 2 delta, u in the
+ *              plane, weights (1 - (u/W)^2)^2: there the front passed at a, with the speed 1/|b|
+ *              along b/|b|; its error as in path.h, damage within a horizon counting as one. A front
+ *              with a radius R seems faster by 0.05 (W/R)^2: what the cone T = r/v leaves of the
+ *              second order
  */
 #ifndef KR_SHEET_H
 #define KR_SHEET_H
 
 #include "front.h"
 
-/** Of a damaged node; one of the pre-crack has an area of 0 and no time. Specks count, too: ligaments between voids
- *  may be shorter than three horizons. */
+/** Of a damaged node; one of the pre-crack has an area of 0 and no time. Specks count, too:
+ * ligaments between voids may be shorter than three horizons. */
 struct kr_patch {
     double x[3], normal[3]; /* m: nearest point of the plane; of length 1 */
     double width;           /* m: w */
@@ -54,12 +57,12 @@ double kr_sheet_when(const struct kr_sheet *sheet, size_t i);
 void kr_sheet_lay(struct kr_sheet *sheet);
 void kr_sheet_time(struct kr_sheet *sheet);
 
-/** The front at a time: the points that patches say it passed then, about a spacing apart, in order along
- *  each curve. Parts that stand have none. Owned by the caller. */
+/** The front at a time: the points that patches say it passed then, about a spacing apart, in order
+ * along each curve. Parts that stand have none. Owned by the caller. */
 struct kr_sheet_point *kr_sheet_front(const struct kr_sheet *sheet, double time, size_t *count);
 
-/** Write front.csv at some 60 times, whole numbers of steps apart, and area.csv, at most 200 lines. Stop (exit 3)
- *  where they cannot be written. */
+/** Write front.csv at some 60 times, whole numbers of steps apart, and area.csv, at most 200 lines.
+ * Stop (exit 3) where they cannot be written. */
 void kr_sheet_write_front(const struct kr_sheet *sheet, const char *path);
 void kr_sheet_write_area(const struct kr_sheet *sheet, const char *path);
 

@@ -5,12 +5,13 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "csv_write.h"
 #include "sheet.h"
-#include "table.h"
 
 enum { MOST_LINES = 200, MOST_FRONTS = 60 };
 
-/* Points nearer than this many spacings are one point of a curve; those farther than that are of two. */
+/* Points nearer than this many spacings are one point of a curve; those farther than that are of
+ * two. */
 static const double NEAR = 0.9, FAR = 3;
 
 static double apart(const double *a, const double *b) {
@@ -19,7 +20,8 @@ static double apart(const double *a, const double *b) {
 }
 
 /** Whether the front was less than 0.6 spacings from a patch at a time, and where. */
-static int is_at(const struct kr_sheet *sheet, const struct kr_patch *patch, double time, double x[3]) {
+static int is_at(const struct kr_sheet *sheet, const struct kr_patch *patch, double time,
+                 double x[3]) {
     double moved = (time - patch->time) * patch->speed;
     if (!(fabs(moved) <= 0.6 * sheet->front->record->spacing))
         return 0;
@@ -57,8 +59,10 @@ static struct kr_sheet_point *gather(const struct kr_sheet *sheet, double time, 
     return point;
 }
 
-/** How far a point is from the mean of its neighbours among the rest: most at the end of a curve. */
-static double lean(const struct kr_sheet_point *point, size_t from, size_t count, size_t k, double far) {
+/** How far a point is from the mean of its neighbours among the rest: most at the end of a curve.
+ */
+static double lean(const struct kr_sheet_point *point, size_t from, size_t count, size_t k,
+                   double far) {
     double mean[3] = {0}, near = 0;
     for (size_t j = from; j < count; j++)
         if (apart(point[j].x, point[k].x) <= far) {
@@ -77,7 +81,8 @@ static void swap(struct kr_sheet_point *a, struct kr_sheet_point *b) {
     *b = keep;
 }
 
-/** Go from an end to the nearest that is left, and so on; where none is near, another curve begins. */
+/** Go from an end to the nearest that is left, and so on; where none is near, another curve begins.
+ */
 static void put_in_order(struct kr_sheet_point *point, size_t count, double far) {
     size_t curve = 0;
     for (size_t k = 0; k < count; k++) {
@@ -111,7 +116,7 @@ struct kr_sheet_point *kr_sheet_front(const struct kr_sheet *sheet, double time,
 
 /* ---- files ------------------------------------------------------------------------------- */
 
-static void put_front(struct kr_table *table, const struct kr_sheet *sheet, double time) {
+static void put_front(struct kr_csv_writer *table, const struct kr_sheet *sheet, double time) {
     const double rayleigh = sheet->front->record->rayleigh_speed;
     size_t count;
     struct kr_sheet_point *point = kr_sheet_front(sheet, time, &count);
@@ -119,12 +124,12 @@ static void put_front(struct kr_table *table, const struct kr_sheet *sheet, doub
         const struct kr_patch *patch = sheet->patch + point[k].patch;
         fprintf(table->file, "%.9g,%zu", time, point[k].curve);
         for (int a = 0; a < 3; a++)
-            kr_table_put(table, point[k].x[a]);
-        kr_table_put(table, patch->speed);
-        kr_table_put(table, patch->error);
-        kr_table_put(table, patch->speed / rayleigh);
+            kr_csv_put(table, point[k].x[a]);
+        kr_csv_put(table, patch->speed);
+        kr_csv_put(table, patch->error);
+        kr_csv_put(table, patch->speed / rayleigh);
         for (int a = 0; a < 3; a++)
-            kr_table_put(table, patch->along[a]);
+            kr_csv_put(table, patch->along[a]);
         fprintf(table->file, "\n");
     }
     kr_free(point);
@@ -132,7 +137,7 @@ static void put_front(struct kr_table *table, const struct kr_sheet *sheet, doub
 
 void kr_sheet_write_front(const struct kr_sheet *sheet, const char *path) {
     const struct kr_front *front = sheet->front;
-    struct kr_table table = kr_table_begin(
+    struct kr_csv_writer table = kr_csv_begin(
         path, "time [s],curve,x [m],y [m],z [m],speed [m/s],speed_error [m/s],speed_over_rayleigh,"
               "along_x,along_y,along_z");
     const double step = front->record->time_step;
@@ -145,7 +150,7 @@ void kr_sheet_write_front(const struct kr_sheet *sheet, const char *path) {
     every = step * fmax(1, ceil((last - first) / step / MOST_FRONTS));
     for (int k = 0; first + k * every <= last; k++)
         put_front(&table, sheet, first + k * every);
-    kr_table_finish(&table);
+    kr_csv_finish(&table);
 }
 
 /** Area of the patches up to a time. */
@@ -159,19 +164,21 @@ static double area_at(const struct kr_sheet *sheet, double time) {
 
 void kr_sheet_write_area(const struct kr_sheet *sheet, const char *path) {
     const struct kr_record *record = sheet->front->record;
-    struct kr_table table =
-        kr_table_begin(path, "time [s],broken_bonds,area [m^2],energy_area [m^2]");
+    struct kr_csv_writer table =
+        kr_csv_begin(path, "time [s],broken_bonds,area [m^2],energy_area [m^2]");
     double energy = 0, begin = record->first_break;
-    double every = record->broken ? (record->bond_time[record->broken - 1] - begin) / MOST_LINES : 0;
+    double every =
+        record->broken ? (record->bond_time[record->broken - 1] - begin) / MOST_LINES : 0;
     double due = begin;
     for (size_t k = 0; k < record->broken; k++) {
         energy += record->bond_energy[k];
         int ends = k + 1 == record->broken;
-        if (!ends && (record->bond_time[k + 1] == record->bond_time[k] || record->bond_time[k] < due))
+        if (!ends &&
+            (record->bond_time[k + 1] == record->bond_time[k] || record->bond_time[k] < due))
             continue;
         due = record->bond_time[k] + every;
         fprintf(table.file, "%.9g,%zu,%.9g,%.9g\n", record->bond_time[k], k + 1,
                 area_at(sheet, record->bond_time[k]), energy / record->fracture_energy);
     }
-    kr_table_finish(&table);
+    kr_csv_finish(&table);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * When, how fast and which way the front of a crack passed each of its nodes; the fit stands in sheet.h.
+ * When, how fast and which way the front of a crack passed each of its nodes; the fit stands in
+ * sheet.h.
  */
 #include "sheet.h"
 
@@ -44,8 +45,9 @@ static double add(const struct kr_sheet *sheet, const struct kr_patch *patch, do
     part = 1 - u * u - v * v; /* the root of the weight */
     if (fabs(across) > horizon || part <= 0)
         return 0;
-    kr_least_add(fit, (double[TERMS]){part, part * u, part * v, part * u * u, part * u * v, part * v * v},
-                 part * (kr_sheet_when(sheet, j) - begin));
+    kr_least_add(
+        fit, (double[TERMS]){part, part * u, part * v, part * u * u, part * u * v, part * v * v},
+        part * (kr_sheet_when(sheet, j) - begin));
     return part * part * sheet->patch[j].area / (horizon * horizon);
 }
 
@@ -80,7 +82,8 @@ static void time_patch(const struct kr_sheet *sheet, size_t i, const int *near, 
 
 void kr_sheet_time(struct kr_sheet *sheet) {
     const struct kr_front *front = sheet->front;
-    struct kr_search *search = kr_search_create(3, front->n, front->x, WINDOW * front->record->horizon);
+    struct kr_search *search =
+        kr_search_create(3, front->n, front->x, WINDOW * front->record->horizon);
     size_t room = 1024;
     int *near = KR_NEW(int, room);
     for (size_t i = 0; i < front->n; i++) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Fronts and areas of cracks drawn by hand in a block: nodes 0.1 mm apart, on a lattice or shaken by up to 0.2
- * spacings, horizon 0.3 mm, steps of 0.02 us.
+ * Fronts and areas of cracks drawn by hand in a block: nodes 0.1 mm apart, on a lattice or shaken
+ * by up to 0.2 spacings, horizon 0.3 mm, steps of 0.02 us.
  */
 #include "sheet.h"
 #include "test.h"
@@ -32,11 +32,20 @@ static int let_go(void **state) {
 
 static struct kr_record *block(int shaken) {
     struct kr_record *r = held_record = KR_NEW(struct kr_record, 1);
-    *r = (struct kr_record){.dim = 3, .n = N, .position = KR_NEW(double, 3 * N),
-                            .volume = KR_NEW(double, N), .damage_time = KR_NEW(double, N),
-                            .time_step = step, .steps = 5000, .finished = 1, .spacing = spacing,
-                            .horizon = 3 * spacing, .rayleigh_speed = 929, .density = 1190,
-                            .fracture_energy = 200, .first_break = INFINITY};
+    *r = (struct kr_record){.dim = 3,
+                            .n = N,
+                            .position = KR_NEW(double, 3 * N),
+                            .volume = KR_NEW(double, N),
+                            .damage_time = KR_NEW(double, N),
+                            .time_step = step,
+                            .steps = 5000,
+                            .finished = 1,
+                            .spacing = spacing,
+                            .horizon = 3 * spacing,
+                            .rayleigh_speed = 929,
+                            .density = 1190,
+                            .fracture_energy = 200,
+                            .first_break = INFINITY};
     srand(7);
     for (size_t i = 0; i < N; i++) {
         const size_t place[] = {i % NX, i / NX % NY, i / NX / NY};
@@ -94,7 +103,8 @@ static struct kr_sheet *find(const struct kr_record *r) {
     return held_sheet = kr_sheet_create(r);
 }
 
-/** The cases: on the lattice and shaken, the plane between two layers of nodes, through a layer, inclined. */
+/** The cases: on the lattice and shaken, the plane between two layers of nodes, through a layer,
+ * inclined. */
 static const struct {
     int shaken;
     struct plane plane;
@@ -105,8 +115,8 @@ static const struct {
              {1, {{3e-3, 1.2e-3, 2e-3}, {0, 0.96592582628906831, 0.25881904510252074}}}};
 enum { CASES = sizeof cases / sizeof cases[0] };
 
-/** Speeds within 1 %, within the window of the begin and end 5 %; the front at its place and across all of the
- *  block; the area that it has run over within 5 %, all of it within 3 %. */
+/** Speeds within 1 %, within the window of the begin and end 5 %; the front at its place and across
+ * all of the block; the area that it has run over within 5 %, all of it within 3 %. */
 static void tree_sheet_straight(void **state) {
     const double end = 5.2e-3, window = 6e-4;
     (void)state;
@@ -137,7 +147,8 @@ static void tree_sheet_straight(void **state) {
             for (size_t p = 0; p < count; p++) {
                 kr_check_near(point[p].x[0], x, spacing / 2);
                 if (p > 1) /* in order, whichever way it goes */
-                    assert_true((point[p].x[2] - point[p - 1].x[2]) * (point[1].x[2] - point[0].x[2]) > 0);
+                    assert_true(
+                        (point[p].x[2] - point[p - 1].x[2]) * (point[1].x[2] - point[0].x[2]) > 0);
             }
             kr_check_near(fabs(point[count - 1].x[2] - point[0].x[2]), NZ * spacing, 2 * spacing);
             /* nodes pass in whole columns: half a spacing of the front's length */
@@ -152,8 +163,8 @@ static void tree_sheet_straight(void **state) {
     }
 }
 
-/** A penny: its front is one closed curve, at its radius; speed and area as above, but that the speed of a front
- *  so curved is that of its window. */
+/** A penny: its front is one closed curve, at its radius; speed and area as above, but that the
+ * speed of a front so curved is that of its window. */
 static void tree_sheet_penny(void **state) {
     const double end = 1.9e-3, pi = 3.14159265358979323846;
     (void)state;
@@ -171,19 +182,23 @@ static void tree_sheet_penny(void **state) {
             assert_int_equal(point[count - 1].curve, 1);
             for (size_t p = 0; p < count; p++) {
                 const double *a = point[p].x, *b = point[(p + 1) % count].x;
-                double off = hypot(hypot(a[0] - plane->at[0], a[1] - plane->at[1]), a[2] - plane->at[2]);
+                double off =
+                    hypot(hypot(a[0] - plane->at[0], a[1] - plane->at[1]), a[2] - plane->at[2]);
                 const struct kr_patch *patch = sheet->patch + point[p].patch;
                 kr_check_near(off, radius, spacing / 2);
                 gap = fmax(gap, hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]));
-                kr_check_near(patch->speed, speed, /* 1 %, one-sided 5 %, and twice what sheet.h says */
+                kr_check_near(patch->speed,
+                              speed, /* 1 %, one-sided 5 %, and twice what sheet.h says */
                               (end - radius < 6e-4 ? 0.05 : 0.01) * speed +
                                   0.1 * 36e-8 / (radius * radius) * speed);
-                for (int d = 0; d < 3; d++) /* of a node up to a spacing from the point; one-sided 0.1 */
+                for (int d = 0; d < 3;
+                     d++) /* of a node up to a spacing from the point; one-sided 0.1 */
                     kr_check_near(patch->along[d], (a[d] - plane->at[d]) / off,
                                   (end - radius < 6e-4 ? 0.1 : 0.02) + spacing / radius);
             }
             kr_check_near(gap, 2 * spacing, 1.5 * spacing);
-            kr_check_near(area_at(sheet, time), wanted, 0.05 * wanted + spacing / 2 * 2 * pi * radius);
+            kr_check_near(area_at(sheet, time), wanted,
+                          0.05 * wanted + spacing / 2 * 2 * pi * radius);
             held_point = kr_free(held_point);
         }
         kr_figure("penny %d: area %.3f of the drawn one at the end", k,
@@ -193,7 +208,8 @@ static void tree_sheet_penny(void **state) {
     }
 }
 
-/** Damage beside the crack, that reaches a horizon to each side, makes the sheet wider and not larger. */
+/** Damage beside the crack, that reaches a horizon to each side, makes the sheet wider and not
+ * larger. */
 static void tree_sheet_spread(void **state) {
     const struct plane plane = {{3e-3, 1.2e-3, 2e-3}, {0, 1, 0}};
     struct kr_record *r = block(1);
@@ -204,14 +220,16 @@ static void tree_sheet_spread(void **state) {
     kr_sheet_free(held_sheet);
     for (size_t i = 0; i < N; i++) {
         const double *x = r->position + 3 * i;
-        if (isinf(r->damage_time[i]) && x[0] > 2e-3 && x[0] < 4e-3 && fabs(height(&plane, x)) < 2.1e-4)
+        if (isinf(r->damage_time[i]) && x[0] > 2e-3 && x[0] < 4e-3 &&
+            fabs(height(&plane, x)) < 2.1e-4)
             r->damage_time[i] = in_steps(start + (x[0] - 1e-3) / speed);
     }
     kr_check_near(area_at(find(r), INFINITY), area, 0.05 * area);
     assert_int_equal(let_go(NULL), 0);
 }
 
-/** Nothing damaged: no front, no area. A speck of two nodes: no front, and the area of two cells at most. */
+/** Nothing damaged: no front, no area. A speck of two nodes: no front, and the area of two cells at
+ * most. */
 static void tree_sheet_nothing(void **state) {
     struct kr_record *r = block(0);
     size_t count;
