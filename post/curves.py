@@ -119,11 +119,13 @@ def history(case):
     for name, label, line in (("external_work", "external work", "-"), ("strain", "strain", "-"),
                               ("kinetic", "kinetic", "-"), ("fracture", "fracture", "-")):
         upper.plot(time, h[name], line, label=label)
-    upper.set_ylabel("energy (J per m of thickness)")
+    with open(case.path("history.csv")) as file:
+        of = " per m of thickness" if "[J/m]" in file.readline() else ""
+    upper.set_ylabel("energy (J%s)" % of)
     upper.legend(loc="upper left")
     lower.plot(time, h["balance"], color=COLOURS[-1], linewidth=0.8)
     lower.axhline(0, color="0.6", linewidth=0.5)
-    lower.set(xlabel="time (µs)", ylabel="balance (J/m)")
+    lower.set(xlabel="time (µs)", ylabel="balance (J%s)" % ("/m" if of else ""))
     for axes in (upper, lower):
         open_axes(axes)
     return save(case, figure, "history")

@@ -104,16 +104,16 @@ static struct kr_fragments break_up(struct kr_deck *deck, const struct kr_case *
 }
 
 /** What only solids have. */
-static void write_sheets(const struct kr_case *c, const struct kr_record *record) {
+static struct kr_sheet *lay_sheets(const struct kr_case *c, const struct kr_record *record) {
     char *front = kr_case_file(c, "front.csv"), *area = kr_case_file(c, "area.csv");
     struct kr_sheet *sheet = kr_sheet_create(record);
     if (c->boxes.count)
         kr_warn("track.boxes are for plates: the front of a solid is found without");
     kr_sheet_write_front(sheet, front);
     kr_sheet_write_area(sheet, area);
-    kr_sheet_free(sheet);
     kr_free(front);
     kr_free(area);
+    return sheet;
 }
 
 static void track_run(struct kr_deck *deck, const struct kr_case *c) {
@@ -121,6 +121,7 @@ static void track_run(struct kr_deck *deck, const struct kr_case *c) {
     struct kr_record *record = kr_record_read(run);
     struct kr_fragments fragments;
     struct kr_tree *tree;
+    struct kr_sheet *sheet;
     struct kr_report report;
     if (!record->finished)
         kr_warn("%s is not finished: this is the crack after %lld steps", run,
@@ -128,8 +129,9 @@ static void track_run(struct kr_deck *deck, const struct kr_case *c) {
     read_rims(c, record);
     fragments = break_up(deck, c, record, run);
     tree = kr_tree_grow(record);
-    report = (struct kr_report){record, c->window, record->dim == 2 ? c->boxes.count : 0,
-                                record->dim == 2 ? follow_boxes(c, record) : NULL, tree, &fragments};
+    sheet = record->dim == 3 ? lay_sheets(c, record) : NULL;
+    report = (struct kr_report){record, c->window, sheet ? 0 : c->boxes.count,
+                                sheet ? NULL : follow_boxes(c, record), tree, &fragments, sheet};
     write_table(c, &report, "tips.csv", kr_report_tips);
     write_table(c, &report, "branches.csv", kr_report_branches);
     write_table(c, &report, "events.csv", kr_report_events);
@@ -137,12 +139,11 @@ static void track_run(struct kr_deck *deck, const struct kr_case *c) {
         write_table(c, &report, "damage.csv", kr_report_damage);
     if (report.n_tracks)
         write_table(c, &report, "boxes.csv", kr_report_boxes);
-    if (record->dim == 3)
-        write_sheets(c, record);
     write_table(c, &report, "summary.csv", kr_report_summary);
     kr_report_say(&report);
     kr_free(run);
     free_tracks(&report);
+    kr_sheet_free(sheet);
     kr_tree_free(tree);
     kr_fragments_clear(&fragments);
     kr_record_free(record);

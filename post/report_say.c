@@ -68,6 +68,19 @@ static double heaviest(const struct kr_fragments *fragments) {
     return 100 * fragments->item[0].mass / mass;
 }
 
+static void say_sheet(const struct kr_report *report) {
+    const double rayleigh = report->record->rayleigh_speed;
+    double speed = kr_sheet_mean_speed(report->sheet);
+    if (!report->tree->damaged)
+        kr_say("  cracks         none: no damage past the threshold");
+    else
+        kr_say("  crack area     %.4g mm^2; over time in area.csv",
+               1e6 * kr_sheet_area(report->sheet, INFINITY));
+    if (isfinite(speed))
+        kr_say("  crack front    %.0f m/s in the mean, %.2f of Rayleigh's %.0f m/s; curves and speeds in "
+               "front.csv", speed, speed / rayleigh, rayleigh);
+}
+
 void kr_report_say(const struct kr_report *report) {
     const struct kr_record *record = report->record;
     const struct kr_tree *tree = report->tree;
@@ -82,8 +95,8 @@ void kr_report_say(const struct kr_report *report) {
         say_track(report, box);
     if (tree->countable)
         say_tree(report);
-    else if (record->dim == 3)
-        kr_say("  crack front    through the thickness: front.csv; its area over time: area.csv");
+    else if (report->sheet)
+        say_sheet(report);
     else
         kr_say("  branches       not to be counted: %.0f %% of all nodes are damaged",
                100.0 * (double)tree->damaged / (double)record->n);

@@ -57,6 +57,13 @@ double kr_sheet_when(const struct kr_sheet *sheet, size_t i);
 void kr_sheet_lay(struct kr_sheet *sheet);
 void kr_sheet_time(struct kr_sheet *sheet);
 
+/** Area [m^2] that the front has run over up to a time. */
+double kr_sheet_area(const struct kr_sheet *sheet, double time);
+
+/** Mean speed [m/s] of the front: the area over the sum of area/speed, so that what broke at once
+ *  counts little; NaN where nowhere is a speed. */
+double kr_sheet_mean_speed(const struct kr_sheet *sheet);
+
 /** The front at a time: the points that patches say it passed then, about a spacing apart, in order
  * along each curve. Parts that stand have none. Owned by the caller. */
 struct kr_sheet_point *kr_sheet_front(const struct kr_sheet *sheet, double time, size_t *count);

@@ -153,13 +153,24 @@ void kr_sheet_write_front(const struct kr_sheet *sheet, const char *path) {
     kr_csv_finish(&table);
 }
 
-/** Area of the patches up to a time. */
-static double area_at(const struct kr_sheet *sheet, double time) {
+double kr_sheet_area(const struct kr_sheet *sheet, double time) {
     double area = 0;
     for (size_t i = 0; i < sheet->front->n; i++)
         if (kr_sheet_when(sheet, i) <= time)
             area += sheet->patch[i].area;
     return area;
+}
+
+double kr_sheet_mean_speed(const struct kr_sheet *sheet) {
+    double area = 0, slowness = 0;
+    for (size_t i = 0; i < sheet->front->n; i++) {
+        const struct kr_patch *patch = sheet->patch + i;
+        if (isnan(patch->speed))
+            continue;
+        area += patch->area;
+        slowness += patch->area / patch->speed;
+    }
+    return area > 0 ? area / slowness : NAN;
 }
 
 void kr_sheet_write_area(const struct kr_sheet *sheet, const char *path) {
@@ -178,7 +189,7 @@ void kr_sheet_write_area(const struct kr_sheet *sheet, const char *path) {
             continue;
         due = record->bond_time[k] + every;
         fprintf(table.file, "%.9g,%zu,%.9g,%.9g\n", record->bond_time[k], k + 1,
-                area_at(sheet, record->bond_time[k]), energy / record->fracture_energy);
+                kr_sheet_area(sheet, record->bond_time[k]), energy / record->fracture_energy);
     }
     kr_csv_finish(&table);
 }

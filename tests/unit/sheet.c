@@ -91,14 +91,6 @@ static void draw_penny(struct kr_record *r, const struct plane *plane, double en
     }
 }
 
-static double area_at(const struct kr_sheet *sheet, double time) {
-    double area = 0;
-    for (size_t i = 0; i < sheet->front->n; i++)
-        if (kr_sheet_when(sheet, i) <= time)
-            area += sheet->patch[i].area;
-    return area;
-}
-
 static struct kr_sheet *find(const struct kr_record *r) {
     return held_sheet = kr_sheet_create(r);
 }
@@ -152,13 +144,14 @@ static void tree_sheet_straight(void **state) {
             }
             kr_check_near(fabs(point[count - 1].x[2] - point[0].x[2]), NZ * spacing, 2 * spacing);
             /* nodes pass in whole columns: half a spacing of the front's length */
-            kr_check_near(area_at(sheet, time), (x - 1e-3) * across,
+            kr_check_near(kr_sheet_area(sheet, time), (x - 1e-3) * across,
                           0.05 * (x - 1e-3) * across + spacing / 2 * across);
             held_point = kr_free(held_point);
         }
+        kr_check_near(kr_sheet_mean_speed(sheet), speed, 0.01 * speed);
         kr_figure("straight %d: area %.3f of the drawn one at the end", k,
-                  area_at(sheet, INFINITY) / ((end - 1e-3) * across));
-        kr_check_near(area_at(sheet, INFINITY) / ((end - 1e-3) * across), 1, 0.03);
+                  kr_sheet_area(sheet, INFINITY) / ((end - 1e-3) * across));
+        kr_check_near(kr_sheet_area(sheet, INFINITY) / ((end - 1e-3) * across), 1, 0.03);
         assert_int_equal(let_go(NULL), 0);
     }
 }
@@ -197,13 +190,13 @@ static void tree_sheet_penny(void **state) {
                                   (end - radius < 6e-4 ? 0.1 : 0.02) + spacing / radius);
             }
             kr_check_near(gap, 2 * spacing, 1.5 * spacing);
-            kr_check_near(area_at(sheet, time), wanted,
+            kr_check_near(kr_sheet_area(sheet, time), wanted,
                           0.05 * wanted + spacing / 2 * 2 * pi * radius);
             held_point = kr_free(held_point);
         }
         kr_figure("penny %d: area %.3f of the drawn one at the end", k,
-                  area_at(sheet, INFINITY) / (pi * (end * end - 16e-8)));
-        kr_check_near(area_at(sheet, INFINITY) / (pi * (end * end - 16e-8)), 1, 0.03);
+                  kr_sheet_area(sheet, INFINITY) / (pi * (end * end - 16e-8)));
+        kr_check_near(kr_sheet_area(sheet, INFINITY) / (pi * (end * end - 16e-8)), 1, 0.03);
         assert_int_equal(let_go(NULL), 0);
     }
 }
@@ -216,7 +209,7 @@ static void tree_sheet_spread(void **state) {
     double area;
     (void)state;
     draw_straight(r, &plane, 5.2e-3);
-    area = area_at(find(r), INFINITY);
+    area = kr_sheet_area(find(r), INFINITY);
     kr_sheet_free(held_sheet);
     for (size_t i = 0; i < N; i++) {
         const double *x = r->position + 3 * i;
@@ -224,7 +217,7 @@ static void tree_sheet_spread(void **state) {
             fabs(height(&plane, x)) < 2.1e-4)
             r->damage_time[i] = in_steps(start + (x[0] - 1e-3) / speed);
     }
-    kr_check_near(area_at(find(r), INFINITY), area, 0.05 * area);
+    kr_check_near(kr_sheet_area(find(r), INFINITY), area, 0.05 * area);
     assert_int_equal(let_go(NULL), 0);
 }
 
@@ -236,13 +229,13 @@ static void tree_sheet_nothing(void **state) {
     (void)state;
     held_point = kr_sheet_front(find(r), 1e-6, &count);
     assert_int_equal(count, 0);
-    kr_check_near(area_at(held_sheet, INFINITY), 0, 0);
+    kr_check_near(kr_sheet_area(held_sheet, INFINITY), 0, 0);
     held_point = kr_free(held_point);
     kr_sheet_free(held_sheet);
     r->damage_time[N / 2] = r->damage_time[N / 2 + 1] = 1e-6;
     held_point = kr_sheet_front(find(r), 1e-6, &count);
     assert_int_equal(count, 0);
-    kr_check_near(area_at(held_sheet, INFINITY), spacing * spacing, spacing * spacing);
+    kr_check_near(kr_sheet_area(held_sheet, INFINITY), spacing * spacing, spacing * spacing);
     assert_int_equal(let_go(NULL), 0);
 }
 
