@@ -146,7 +146,7 @@ $(BUILD)/tests/%: tests/%.c tests/test.h $(BUILD)/libkirsch.a
 
 # What the fuzzer starts, built by its compiler into a folder of its own (make fuzz).
 $(BUILD)/feed: tests/fuzz/feed.c tests/readers.h $(BUILD)/libkirsch.a
-	$(Q)$(CC) $(ALL_FLAGS) -Itests $< $(BUILD)/libkirsch.a $(LIBS) -Wl,--wrap=exit -o $@
+	$(Q)$(CC) $(ALL_FLAGS) -Itests $< $(BUILD)/libkirsch.a $(LIBS) -Wl,--wrap=exit,--wrap=kr_seal_holds -o $@
 
 $(BUILD)/fields: $(BUILD)/cases/pores-500/fields.o $(BUILD)/libkirsch.a
 	@echo "  link  $(@F)"
@@ -200,8 +200,8 @@ test: deps
 fuzz: deps
 	@tests/deps install afl++ clang libomp-dev
 	@$(MAKE) --no-print-directory all
-	@AFL_QUIET=1 $(MAKE) --no-print-directory BUILD=$(BUILD)/fuzz CC=afl-clang-fast kernels=baseline \
-	    HARDEN= KERNEL_FLAGS='-O0 -fno-sanitize=all' CFLAGS='-g -O1 -fsanitize=address,undefined -fno-omit-frame-pointer' $(BUILD)/fuzz/feed
+	@AFL_QUIET=1 $(MAKE) --no-print-directory BUILD=$(BUILD)/fuzz CC=afl-clang-fast \
+	    CXX_FLAGS='-std=c++17 -O1 -Ipre' HARDEN= KERNEL_FLAGS='-O0 -fno-sanitize=all' CFLAGS='-g -O1 -fsanitize=address,undefined -fno-omit-frame-pointer' $(BUILD)/fuzz/feed
 	@BUILD=$(BUILD) tests/fuzz/run
 
 bench: deps

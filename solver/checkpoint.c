@@ -162,6 +162,10 @@ static void read_crack(const struct kr_h5 *file, struct kr_crack *crack) {
     kr_h5_shape(file, "/bond_time", &crack->count, &columns);
     crack->room = crack->count;
     crack->pair = kr_h5_read_int32(file, "/bond", crack->count, 2);
+    for (size_t k = 0; k < 2 * crack->count; k++)
+        if (crack->pair[k] < 0 || (size_t)crack->pair[k] >= crack->n)
+            kr_stop(KR_EXIT_INPUT, "%s, array '/bond': found node %d, expected 0 to %zu; run without --resume",
+                    kr_h5_path(file), crack->pair[k], crack->n - 1);
     crack->time = kr_h5_read_double(file, "/bond_time", crack->count, 0);
     crack->held = kr_h5_read_double(file, "/bond_energy", crack->count, 0);
     crack->energy = kr_h5_get_double(file, "/", "fracture_work");
