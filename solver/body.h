@@ -52,7 +52,9 @@ double kr_body_energy(struct kr_body *body);
  */
 void kr_body_product(struct kr_body *body, double *const v[], double *const product[]);
 
-/** v += kick * force/rho, then u += drift * v, for all nodes; times in s; theory.md (12). */
+/** v += kick * force/rho, then u += drift * v, for all nodes; times in s; theory.md (12). Nobody
+ *  changes u between this and the next force, energy or product: in mixed precision they take it as
+ *  it was rounded here. */
 void kr_body_advance(struct kr_body *body, double kick, double drift);
 
 /** force -= damping rho v, damping [1/s]; theory.md (27). */

@@ -22,7 +22,7 @@
 enum { COLUMNS = 1250, ROWS = 625, PATCHES = 8, EDGE = 60 };
 static const double SPACING = 0.04e-3;
 
-enum where { JITTER_PATCHES, JITTER_ALL, BLOCK };
+enum where { JITTER_PATCHES, JITTER_ALL, LATTICE, BLOCK };
 
 /* One measurement. */
 struct set {
@@ -78,7 +78,7 @@ static struct kr_nodes *make_plate(const struct set *set) {
         x[0] = SPACING * ((double)(i % columns) + 0.5);
         x[1] = SPACING * ((double)(i / columns) + 0.5);
         nodes->volume[i] = SPACING * SPACING;
-        if (set->where == JITTER_ALL || in_patch(x[0], x[1])) {
+        if (set->where == JITTER_ALL || (set->where == JITTER_PATCHES && in_patch(x[0], x[1]))) {
             x[0] += 0.2 * SPACING * noise(3 * i);
             x[1] += 0.2 * SPACING * noise(3 * i + 1);
             nodes->volume[i] *= 1 + 0.15 * noise(3 * i + 2);
@@ -191,9 +191,10 @@ static double triad_of(void) {
     return 4.0 * sizeof(double) * COUNT / best;
 }
 
-/* The most a core could do of a set, and the share it did. A bond of the plane takes 7 multiplications
- * or multiply-adds and one for each term of the polynomial; docs/performance.md. */
-static void put_share(FILE *file, const struct set *set) {
+/* The most a core could do of a lattice set, and the share that it did of this set and of a lattice
+ * alone. A lattice bond of the plane takes 7 multiplications or multiply-adds and one for each term
+ * of the polynomial; docs/performance.md. */
+static void put_share(FILE *file, const struct set *set, const struct set *lattice) {
     double adds = multiply_adds_of(kr_kernel_best(), 1), triad = triad_of();
     double limit = fmin(adds / (7 + set->terms), triad / set->bytes);
     put(file, "multiply_adds_double_1", adds, "1/s");
@@ -201,6 +202,7 @@ static void put_share(FILE *file, const struct set *set) {
     put(file, "bytes_per_bond_2d", set->bytes, "B");
     put(file, "limit_2d", limit, "1/s");
     put(file, "share_of_limit_2d", set->rate / limit, "1");
+    put(file, "share_of_limit_2d_lattice", lattice->rate / limit, "1");
 }
 
 /* The processor time of LAMMPS' loop by its log [s]; NAN where it cannot be read. */
@@ -230,7 +232,8 @@ static void measure_all(FILE *file, const char *log) {
     struct set plane = measure_and_put(file, "pmb_2d_double_1", JITTER_PATCHES, 1, 0);
     put(file, "memory_per_node_2d_B", plane.bytes_per_node, "B");
     put(file, "memory_peak_per_node_2d_B", plane.peak_per_node, "B");
-    put_share(file, &plane);
+    struct set lattice = measure_and_put(file, "pmb_2d_lattice_double_1", LATTICE, 1, 0);
+    put_share(file, &plane, &lattice);
     if (two) {
         struct set both = measure_and_put(file, "pmb_2d_double_2", JITTER_PATCHES, 2, 0);
         put(file, "pmb_2d_threads_2_over_1", both.rate / plane.rate, "1");

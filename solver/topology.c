@@ -120,6 +120,12 @@ static void put_polyhedron(struct words *w, const struct kr_nodes *nodes, int64_
     kr_free(triangle);
 }
 
+/* ParaView takes XDMF's corners as VTK's, and in VTK's wedge the normal of the first triangle points outwards:
+ * the mirror image of everybody else's. As it comes, ParaView would show it inside out. */
+static void put_wedge(struct words *w, const int64_t *vertex) {
+    put_corners(w, 6, (const int64_t[]){vertex[0], vertex[2], vertex[1], vertex[3], vertex[5], vertex[4]});
+}
+
 static void put_solid(struct words *w, const struct kr_nodes *nodes, int64_t n, const int64_t *vertex) {
     static const struct {
         int64_t corners, with_middles, number;
@@ -127,7 +133,10 @@ static void put_solid(struct words *w, const struct kr_nodes *nodes, int64_t n, 
     for (size_t k = 0; k < sizeof solid / sizeof *solid; k++)
         if (n == solid[k].corners || n == solid[k].with_middles) {
             put(w, solid[k].number);
-            put_corners(w, solid[k].corners, vertex);
+            if (solid[k].corners == 6)
+                put_wedge(w, vertex);
+            else
+                put_corners(w, solid[k].corners, vertex);
             return;
         }
     kr_assert(n % 4 == 0);

@@ -13,6 +13,7 @@
  *    3 polygon: 3, how many, corners
  *    16 polyhedron: 16, how many faces, for each: how many, corners
  *
+ *  A wedge has VTK's order: the normal of its first triangle points outwards (see topology.c).
  *  Nodes in the middle of edges are left out: solids are shown by their corners. A polyhedron, which
  *  is kept as tetrahedra, is shown by the faces that only one of them has. */
 int64_t *kr_topology_make(const struct kr_nodes *nodes, size_t *count);
