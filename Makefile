@@ -5,7 +5,7 @@
 #   make study      run the example study of random pores; goes on where it was interrupted
 #   make test       all tests (ONLY=word: those whose name contains the word)
 #   make fuzz       damaged files for every reader, under AFL++ (FUZZ_SECONDS= each, KINDS=)
-#   make sanitize   small cases under valgrind, and the address, leak and thread sanitizers (WITH=)
+#   make sanitize   small cases under valgrind, and the leak and thread sanitizers (WITH=)
 #   make allocations  each allocation of each program fails in turn (some 15 minutes)
 #   make bench      measure the speed; writes build/bench.csv
 #   make bench-growth  the speed by nodes, m and threads, and what mixed precision changes
@@ -206,11 +206,11 @@ fuzz: deps
 	    CXX_FLAGS='-std=c++17 -O1 -Ipre' HARDEN= KERNEL_FLAGS='-O0 -fno-sanitize=all' CFLAGS='-g -O1 -fsanitize=address,undefined -fno-omit-frame-pointer' $(BUILD)/fuzz/feed
 	@BUILD=$(BUILD) tests/fuzz/run
 
-# CGAL is no part of this: it takes minutes to compile with sanitizers.
+# CGAL is no part of this: it takes minutes to compile with sanitizers. Address and undefined behaviour: make test SANITIZE=1, make fuzz.
 sanitize: deps
 	@tests/deps install valgrind clang libomp-dev
 	@$(MAKE) --no-print-directory all
-	@$(MAKE) --no-print-directory BUILD=$(BUILD)/address SANITIZE=1 CXX_FLAGS='-std=c++17 -O1 -Ipre' all
+	@$(MAKE) --no-print-directory BUILD=$(BUILD)/leak CFLAGS='-O2 -g -fsanitize=leak' CXX_FLAGS='-std=c++17 -O1 -Ipre' all
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/threads CC=clang HARDEN= KERNEL_FLAGS=-O1 CXX_FLAGS='-std=c++17 -O1 -Ipre' \
 	    CFLAGS='-g -O1 -fsanitize=thread -Wno-pass-failed' all
 	@BUILD=$(BUILD) tests/sanitize
