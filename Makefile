@@ -5,6 +5,8 @@
 #   make study      run the example study of random pores; goes on where it was interrupted
 #   make test       all tests (ONLY=word: those whose name contains the word)
 #   make fuzz       damaged files for every reader, under AFL++ (FUZZ_SECONDS= each, KINDS=)
+#   make sanitize   small cases under valgrind, and the leak and thread sanitizers (WITH=)
+#   make allocations  each allocation of each program fails in turn (some 15 minutes)
 #   make bench      measure the speed; writes build/bench.csv
 #   make bench-growth  the speed by nodes, m and threads, and what mixed precision changes
 #   make deps       list what the system lacks and install it (Debian; sudo where not root)
@@ -85,7 +87,7 @@ KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 $(foreach k,$(kernels),$(eval KERNEL_$(k)_mixed := $(KERNEL_$(k)) -DKR_FLOAT))
 
-.PHONY: FORCE all help demo study test fuzz oracle bench bench-growth bench-read bench-tree pictures node-order deps \
+.PHONY: FORCE all help demo study test fuzz sanitize allocations oracle bench bench-growth bench-read bench-tree pictures node-order deps \
         corrections pores-500 equilibrium free-grid lloyd-solid bar soak validate $(cases) \
         docs format install clean check-deps sbom
 all: check-deps $(programs) $(scripts)
@@ -148,7 +150,7 @@ $(BUILD)/tests/%: tests/%.c tests/test.h $(BUILD)/libkirsch.a
 
 # What the fuzzer starts, built by its compiler into a folder of its own (make fuzz).
 $(BUILD)/feed: tests/fuzz/feed.c tests/readers.h $(BUILD)/libkirsch.a
-	$(Q)$(CC) $(ALL_FLAGS) -Itests $< $(BUILD)/libkirsch.a $(LIBS) -Wl,--wrap=exit -o $@
+	$(Q)$(CC) $(ALL_FLAGS) -Itests $< $(BUILD)/libkirsch.a $(LIBS) -Wl,--wrap=exit,--wrap=kr_seal_holds -o $@
 
 $(BUILD)/fields: $(BUILD)/cases/pores-500/fields.o $(BUILD)/libkirsch.a
 	@echo "  link  $(@F)"
@@ -202,9 +204,21 @@ test: deps
 fuzz: deps
 	@tests/deps install afl++ clang libomp-dev
 	@$(MAKE) --no-print-directory all
-	@AFL_QUIET=1 $(MAKE) --no-print-directory BUILD=$(BUILD)/fuzz CC=afl-clang-fast kernels=baseline \
-	    HARDEN= KERNEL_FLAGS='-O0 -fno-sanitize=all' CFLAGS='-g -O1 -fsanitize=address,undefined -fno-omit-frame-pointer' $(BUILD)/fuzz/feed
+	@AFL_QUIET=1 $(MAKE) --no-print-directory BUILD=$(BUILD)/fuzz CC=afl-clang-fast \
+	    CXX_FLAGS='-std=c++17 -O1 -Ipre' HARDEN= KERNEL_FLAGS='-O0 -fno-sanitize=all' CFLAGS='-g -O1 -fsanitize=address,undefined -fno-omit-frame-pointer' $(BUILD)/fuzz/feed
 	@BUILD=$(BUILD) tests/fuzz/run
+
+# CGAL is no part of this: it takes minutes to compile with sanitizers. Address and undefined behaviour: make test SANITIZE=1, make fuzz.
+sanitize: deps
+	@tests/deps install valgrind clang libomp-dev
+	@$(MAKE) --no-print-directory all
+	@$(MAKE) --no-print-directory BUILD=$(BUILD)/leak CFLAGS='-O2 -g -fsanitize=leak' CXX_FLAGS='-std=c++17 -O1 -Ipre' all
+	@$(MAKE) --no-print-directory BUILD=$(BUILD)/threads CC=clang HARDEN= KERNEL_FLAGS=-O1 CXX_FLAGS='-std=c++17 -O1 -Ipre' \
+	    CFLAGS='-g -O1 -fsanitize=thread -Wno-pass-failed' all
+	@BUILD=$(BUILD) tests/sanitize
+
+allocations: all
+	@BUILD=$(BUILD) ONLY=each_allocation ALLOCATIONS=0 sh tests/cli/memory.sh
 
 bench: deps
 	@$(MAKE) --no-print-directory all

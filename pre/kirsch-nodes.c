@@ -3,6 +3,7 @@
  * kirsch-nodes: mesh -> nodes, with sets and surface factors.
  */
 #include "base/error.h"
+#include "base/machine.h"
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/unit.h"
@@ -226,9 +227,13 @@ static int make_nodes(int argc, char **argv) {
 
     char *path = kr_case_file(&c, "plate.nodes.h5"), *stem = kr_case_file(&c, "plate");
     char *deck_text = kr_deck_resolved(deck, NULL);
-    kr_nodes_write(nodes, path, deck_text);
-    kr_say("  wrote %s", path);
-    export(&wish, nodes, stem, path);
+    if (arguments.explain) {
+        kr_say("  memory %.0f MiB at the most; nothing is written", kr_machine_peak() / 1048576);
+    } else {
+        kr_nodes_write(nodes, path, deck_text);
+        kr_say("  wrote %s", path);
+        export(&wish, nodes, stem, path);
+    }
     kr_free(path);
     kr_free(stem);
     kr_free(deck_text);

@@ -4,11 +4,13 @@
  */
 #include "base/error.h"
 #include "base/file.h"
+#include "base/machine.h"
 #include "base/memory.h"
 #include "base/provenance.h"
 #include "case.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -133,6 +135,20 @@ static char *default_folder(const struct kr_deck *deck) {
     return folder;
 }
 
+/* Stop before anything is allocated that cannot fit. A cell takes this much in a mesh alone (mesh.h: a point, a quad and
+ * its tag); half of the rectangle may be holes. Bodies of their own mesh or of coarse cells tell no number. */
+static void check_memory(const struct kr_case *c) {
+    const double a_cell = 2 * sizeof(double) + 5 * sizeof(size_t) + sizeof(int64_t);
+    double cells = 0.5 * (c->width / c->spacing) * (c->height / c->spacing);
+    char what[64];
+    if ((c->mesh_file && *c->mesh_file) || !(c->spacing > 0) || c->body.file)
+        return;
+    if (c->depth > 0)
+        cells *= c->depth / c->spacing;
+    snprintf(what, sizeof what, "%.3g cells, half of what `mesh.spacing` gives,", cells);
+    kr_machine_need(cells * a_cell, what);
+}
+
 struct kr_deck *kr_case_open(const struct kr_case_arguments *arguments, struct kr_case *out) {
     memset(out, 0, sizeof *out);
     struct kr_deck *deck =
@@ -147,6 +163,7 @@ struct kr_deck *kr_case_open(const struct kr_case_arguments *arguments, struct k
         kr_say("%s: no faults", arguments->deck);
         exit(KR_EXIT_OK);
     }
+    check_memory(out);
     if (arguments->folder)
         out->folder = arguments->folder;
     else if (!out->folder || !*out->folder)

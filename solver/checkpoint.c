@@ -162,9 +162,26 @@ static void read_crack(const struct kr_h5 *file, struct kr_crack *crack) {
     kr_h5_shape(file, "/bond_time", &crack->count, &columns);
     crack->room = crack->count;
     crack->pair = kr_h5_read_int32(file, "/bond", crack->count, 2);
+    for (size_t k = 0; k < 2 * crack->count; k++)
+        if (crack->pair[k] < 0 || (size_t)crack->pair[k] >= crack->n)
+            kr_stop(KR_EXIT_INPUT, "%s, array '/bond': found node %d, expected 0 to %zu; run without --resume",
+                    kr_h5_path(file), crack->pair[k], crack->n - 1);
     crack->time = kr_h5_read_double(file, "/bond_time", crack->count, 0);
     crack->held = kr_h5_read_double(file, "/bond_energy", crack->count, 0);
     crack->energy = kr_h5_get_double(file, "/", "fracture_work");
+}
+
+/* Bonds only ever break: one that lives now and was not there at the start leads to a node that may not exist. */
+static void read_living(const struct kr_h5 *file, struct kr_bonds *bonds) {
+    int32_t *word = kr_h5_read_int32(file, "/living", words_of(bonds), 0);
+    const uint8_t *mask = (const uint8_t *)word;
+    for (size_t row = 0; row < bonds->n_rows; row++)
+        if (mask[row] & ~bonds->living[row])
+            kr_stop(KR_EXIT_INPUT, "%s, array '/living': a bond lives that the body does not have; run without --resume",
+                    kr_h5_path(file));
+    memcpy(bonds->living, mask, bonds->n_rows);
+    kr_bonds_find_twins(bonds);
+    kr_free(word);
 }
 
 static void read_all(const struct kr_h5 *file, struct kr_checkpoint *at) {
@@ -175,10 +192,7 @@ static void read_all(const struct kr_h5 *file, struct kr_checkpoint *at) {
         memcpy(array[k].data, data, array[k].n * sizeof *data);
         kr_free(data);
     }
-    int32_t *word = kr_h5_read_int32(file, "/living", words_of(at->body->bonds), 0);
-    memcpy(at->body->bonds->living, word, at->body->bonds->n_rows);
-    kr_bonds_find_twins(at->body->bonds);
-    kr_free(word);
+    read_living(file, at->body->bonds);
     read_crack(file, at->crack);
     at->step = (long)kr_h5_get_int64(file, "/", "step");
     at->history = (long)kr_h5_get_int64(file, "/", "history");

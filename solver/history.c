@@ -65,7 +65,7 @@ static void find_columns(struct kr_history *h) {
 }
 
 long kr_history_bytes(const struct kr_history *h) {
-    return ftell(h->file);
+    return kr_file_settle(h->file, h->path);
 }
 
 static void write_header(struct kr_history *h) {

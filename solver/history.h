@@ -17,7 +17,7 @@ struct kr_history *kr_history_open(const char *path, struct kr_boundary *const *
                                    size_t stages, int dim, const struct kr_probes *probes,
                                    long bytes);
 
-/** How long the file is, all written. */
+/** How long the file is, all of it on the disk. */
 long kr_history_bytes(const struct kr_history *history);
 
 /** When a line is from: step and time of the run, stage from 0, time on its clock [s]. */

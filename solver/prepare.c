@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Making a case ready to run (the first half of run.h), and explaining it.
+ * Making a case ready to run (the first half of run.h).
  */
 #include "run.h"
 
 #include "base/error.h"
+#include "base/machine.h"
 #include "base/memory.h"
 #include "base/progress.h"
 #include "initial.h"
 #include "precrack.h"
 #include "rest.h"
+#include "stress.h"
 #include "time_step.h"
-#include "wave.h"
 #include "weight.h"
 
 #include <math.h>
@@ -55,6 +56,14 @@ static void check_made_for(struct kr_deck *deck, const struct kr_case *c, int pa
     if (c->surface_correction == KR_SURFACE_ENERGY)
         check_word(deck, &c->surface_deformation, c->surface_deformation, KR_DEFORMATION_WORDS,
                    made->deformation);
+}
+
+/* The vectors of the loop and of the records alone (bonds.h, body.h, ledger.h, output.c): the families come on top. */
+static void check_memory(const struct kr_nodes *nodes) {
+    const size_t dim = (size_t)nodes->dim, numbers = (dim + 4) + (3 * dim + 1) + dim + KR_TENSOR;
+    char what[64];
+    snprintf(what, sizeof what, "%zu nodes", nodes->n);
+    kr_machine_need((double)(numbers * sizeof(double) * nodes->n) + (double)kr_memory_bytes(), what);
 }
 
 static void mark_no_fail(const struct kr_case *c, const struct kr_nodes *nodes,
@@ -208,6 +217,7 @@ struct kr_run *kr_run_create(struct kr_deck *deck, const struct kr_case *c) {
     struct kr_material material = kr_material_of(c);
     int partial_volume = kr_weights_choose(deck, c, run->nodes);
     check_made_for(deck, c, partial_volume, run->nodes);
+    check_memory(run->nodes);
     kr_boundary_check(deck, c, run->nodes);
     run->probes = kr_probes_create(deck, c, run->nodes);
     kr_deck_finish(deck);
@@ -247,32 +257,4 @@ void kr_run_free(struct kr_run *run) {
     kr_bonds_free(run->bonds);
     kr_nodes_free(run->nodes);
     kr_free(run);
-}
-
-/* Seconds of one step, from a few. */
-static double step_time(struct kr_body *body) {
-    enum { TRIES = 5 };
-    double begun = kr_progress_clock();
-    for (int k = 0; k < TRIES; k++)
-        kr_body_force(body, 0);
-    return (kr_progress_clock() - begun) / TRIES;
-}
-
-void kr_run_explain(const struct kr_run *run) {
-    const struct kr_material *m = &run->bonds->material;
-    struct kr_wave wave =
-        kr_wave_speeds(m->youngs_modulus, m->poissons_ratio, m->density, (enum kr_model)m->model);
-    char model[32], profile[32];
-    kr_case_word(KR_MODEL_WORDS, m->model, model);
-    kr_case_word(KR_MICROMODULUS_WORDS, m->profile, profile);
-    kr_say("  law %s, %s: Poisson's ratio of the model %.4g, %s micromodulus c %.5g N/m^%d",
-           m->law->name, model, m->poissons_ratio, profile, m->micromodulus,
-           m->model == KR_SOLID ? 6 : 5);
-    kr_say("  critical stretch s0 %.5g, horizon over spacing m = %.3g", m->critical_stretch,
-           m->horizon / run->nodes->spacing);
-    kr_say("  wave speeds: longitudinal %.1f, shear %.1f, Rayleigh %.1f m/s", wave.longitudinal,
-           wave.shear, wave.rayleigh);
-    kr_say("  memory %.0f MiB at the most; about %.0f s for %ld steps",
-           (double)kr_memory_peak() / 1048576, step_time(run->body) * 1.1 * (double)run->steps,
-           run->steps);
 }

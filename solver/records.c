@@ -26,6 +26,16 @@ static int lock_folder(const struct kr_case *c) {
     return lock; /* a file system without locks has none to ask for */
 }
 
+/* A checkpoint whose numbers lead nowhere would run for ever or beyond the stages. */
+static void check_place(const struct kr_run *run, const struct kr_checkpoint *at) {
+    if (at->stage < run->n_stages && at->step >= 0 && at->before >= 0 && at->round >= 0 &&
+        (run->stage[at->stage].kind == KR_STAGE_STATIC || at->step <= run->stage[at->stage].steps))
+        return;
+    kr_stop(KR_EXIT_INPUT,
+            "the checkpoint in %s stands at step %ld of stage %zu, which the run does not have; run without --resume",
+            run->c->folder, at->step, at->stage + 1);
+}
+
 void kr_records_open(struct kr_records *r, struct kr_run *run, const char *deck_text, int resume) {
     const struct kr_case *c = run->c;
     char *path = kr_case_file(c, "history.csv");
@@ -43,6 +53,7 @@ void kr_records_open(struct kr_records *r, struct kr_run *run, const char *deck_
                                    .crack = r->crack};
     if (resume) {
         kr_checkpoint_read(c, &r->at);
+        check_place(run, &r->at);
         kr_say("  resumed at step %ld, t = %.4g us", r->at.before + r->at.step,
                1e6 * (r->at.began + (double)r->at.step * run->stage[r->at.stage].dt));
     } else {

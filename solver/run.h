@@ -45,9 +45,9 @@ struct kr_run {
 struct kr_run *kr_run_create(struct kr_deck *deck, const struct kr_case *c);
 void kr_run_free(struct kr_run *run);
 
-/** Derived quantities, as lines of text on stdout: constants, wave speeds, bonds, time step, memory,
- *  and an estimate of the time, from a short measurement. */
-void kr_run_explain(const struct kr_run *run);
+/** Derived quantities, as lines of text on stdout: constants, wave speeds, the memory that the run will need
+ *  (all of it is held for a moment), and an estimate of the time, from a short measurement. Moves the body. */
+void kr_run_explain(struct kr_run *run);
 
 /** One static stage: load step by load step to equilibrium, breaking bonds past s0 until there is none;
  *  theory.md (24) to (26). Returns 1 where the body came apart, which ends the run. Stops (exit 2)

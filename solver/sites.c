@@ -124,5 +124,5 @@ void kr_sites_note(struct kr_sites *s, const struct kr_crack *crack, size_t from
 }
 
 long kr_sites_bytes(const struct kr_sites *s) {
-    return ftell(s->file);
+    return kr_file_settle(s->file, s->path);
 }

@@ -21,7 +21,7 @@ void kr_sites_free(struct kr_sites *sites);
 void kr_sites_note(struct kr_sites *sites, const struct kr_crack *crack, size_t from,
                    struct kr_history_time at);
 
-/** How long the file is, all written. */
+/** How long the file is, all of it on the disk. */
 long kr_sites_bytes(const struct kr_sites *sites);
 
 #endif

@@ -41,10 +41,20 @@ FILE *kr_file_grow(const char *path, long bytes) {
     if (descriptor < 0 && errno == ELOOP)
         kr_stop(KR_EXIT_STORAGE, "%s is a link, and results are not written through links; remove it",
                 path);
+    off_t size = descriptor < 0 ? 0 : lseek(descriptor, 0, SEEK_END);
+    if (descriptor >= 0 && (bytes < 0 || size < bytes))
+        kr_stop(KR_EXIT_STORAGE, "%s has %lld bytes, and the checkpoint was made when it had %ld; bring it back, or "
+                                 "run without --resume", path, (long long)size, bytes);
     FILE *file = descriptor < 0 || ftruncate(descriptor, bytes) ? NULL : fdopen(descriptor, "r+");
     if (!file || fseek(file, bytes, SEEK_SET))
         kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s", path, strerror(errno));
     return file;
+}
+
+long kr_file_settle(FILE *file, const char *path) {
+    if (fflush(file) || fsync(fileno(file)))
+        kr_stop(KR_EXIT_STORAGE, "%s: cannot be written: %s; free some space and run again", path, strerror(errno));
+    return ftell(file);
 }
 
 static void make(const char *path) {

@@ -19,9 +19,12 @@ struct kr_file kr_file_begin(char *path);
 /** End it: it takes its name. Stops (exit 3) where anything of it could not be written. */
 void kr_file_end(struct kr_file *file);
 
-/** Open a file that grows, behind its first so many bytes; 0: empty. Stops (exit 3) where that cannot be, or
- *  the path is a link. */
+/** Open a file that grows, behind its first so many bytes; 0: empty. Stops (exit 3) where that cannot be, the
+ *  path is a link, or the file is shorter than that. */
 FILE *kr_file_grow(const char *path, long bytes);
+
+/** How long it is, all of it brought to the disk: a checkpoint counts on that. Stops (exit 3). */
+long kr_file_settle(FILE *file, const char *path);
 
 /** Make a folder and those above it, as far as they are not there. Stops (exit 3). */
 void kr_folder_make(const char *path);

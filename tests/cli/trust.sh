@@ -1,7 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Trust: checkpoints that are damaged, a limit of time, memory and storage that
-# give out, files that are cut, numbers that are mistaken.
+# Trust: checkpoints that are damaged, a limit of time, storage that gives out, files that are cut, numbers that are mistaken.
 prefix=trust
 . tests/cli/steps
 write_case
@@ -89,15 +88,71 @@ second_run() {
     wait $child && [ $refused -eq 0 ] && equal
 }
 
-# A results file cut anywhere is refused or read, never worse.
+# A results file cut anywhere is refused, never worse: at its ends, at tenths, and where no seed repeats.
 cut_results() {
-    begin || return
-    size=$(stat -c %s "$work/whole/run/crack.h5")
-    for part in 0 1 2 3 5 8 13 21 34 55 89 97 99; do
-        rm -rf "$work/now" && cp -r "$work/whole" "$work/now"
-        truncate -s $((size * part / 100)) "$work/now/run/crack.h5"
-        stops 2 "crack" "$build/kirsch-track" --output "$work/now" "$work/case.yaml" || return
+    begin && rm -rf "$work/now" && cp -r "$work/whole" "$work/now" || return
+    tried=0
+    for file in run/crack.h5 run.h5; do
+        word=run.h5 # which links to the other as /crack
+        [ $file = run.h5 ] || word=/crack
+        size=$(stat -c %s "$work/whole/$file")
+        for kept in 0 1 7 8 95 $((size - 1)) $((size - 2)) $((size - 8)) $(seq $((size / 10)) $((size / 10)) $((size - 1))) \
+            $(od -An -N24 -tu4 /dev/urandom | awk -v n="$size" '{ for (k = 1; k <= NF; k++) print $k % n }'); do
+            head -c "$kept" "$work/whole/$file" >"$work/now/$file"
+            stops 2 "$word" "$build/kirsch-track" --output "$work/now" "$work/case.yaml" || return
+            tried=$((tried + 1))
+        done
+        cp "$work/whole/$file" "$work/now/$file"
     done
+    echo "# figure cut at $tried places, refused at each"
+}
+
+# A small disk that is full while a run is at work; freed, the run goes on as if nothing had been.
+full_then_freed() {
+    begin || return
+    unshare -rm true 2>/dev/null || { echo "# figure no disk of its own can be made here (unshare -rm)"; return 0; }
+    export build work often slow
+    unshare -rm sh <<'END'
+mount -t tmpfs -o size=16m none "$work/now" && cp "$work/plate/plate.nodes.h5" "$work/now" || exit
+solve() { "$build/kirsch-solve" --output "$work/now" --set "$often" --set "$slow" "$@" "$work/case.yaml"; }
+"$build/kirsch-solve" --output "$work/now" --set "$often" --set "$slow" "$work/case.yaml" >"$work/log" 2>&1 &
+child=$!
+until [ -e "$work/now/checkpoint.h5" ]; do kill -0 $child || exit; sleep 0.02; done
+kill -STOP $child
+cat /dev/zero >"$work/now/filler" 2>/dev/null
+kill -CONT $child
+wait $child
+code=$?
+cat "$work/log"
+[ $code -eq 3 ] && grep -q "No space left" "$work/log" || { echo "a full disk ends with $code"; exit 1; }
+rm "$work/now/filler"
+solve --resume && cmp "$work/now/history.csv" "$work/whole/history.csv" && diff -r "$work/now/run" "$work/whole/run"
+END
+}
+
+# A checkpoint that was written by someone else: sealed, but with numbers that lead nowhere.
+resealed() { # words, Python statement about `file`
+    two_checkpoints || return
+    rm -f "$work/now/checkpoint-before.h5"
+    /usr/bin/python3 - "$work/now/checkpoint.h5" "$2" <<'END' || return
+import h5py, sys
+path, change = sys.argv[1:]
+with h5py.File(path, "r+") as file:
+    exec(change)
+data = open(path, "rb").read()
+hash = 0xcbf29ce484222325
+for byte in data:
+    hash = (hash ^ byte) * 0x100000001b3 & (1 << 64) - 1
+open(path, "ab").write(b"kirsch seal %016x\n" % hash)
+END
+    stops 2 "$1" solve --resume
+}
+
+# A table that was cut or lost since the checkpoint cannot be gone on with.
+lost_history() {
+    two_checkpoints || return
+    : >"$work/now/history.csv"
+    stops 3 "bring it back, or run without --resume" solve --resume
 }
 
 # No file under its own name may be half written: those that are there can be read whole.
@@ -107,29 +162,6 @@ no_halves() { # folder
         /usr/bin/python3 -c 'import h5py, sys; h5py.File(sys.argv[1]).visititems(
             lambda name, item: item[()] if hasattr(item, "shape") else None)' "$file" || return
     done
-}
-
-# The n-th allocation fails, for n over the whole program: exit 6, a sentence, nothing half written.
-memory() { # program
-    nodes || return
-    tried=0
-    n=1
-    while :; do
-        rm -rf "$work/poor" && mkdir "$work/poor"
-        [ "$1" = mesh ] || cp "$work/plate/plate.msh" "$work/poor"
-        [ "$1" = solve ] && cp "$work/plate/plate.nodes.h5" "$work/poor"
-        KIRSCH_FAIL_ALLOCATION=$n "$build/kirsch-$1" --output "$work/poor" --set solver.end_time='0.3 us' \
-            --set output.every='0.3 us' --set output.history_every='0.1 us' "$work/case.yaml" >"$work/poor.log" 2>&1
-        code=$?
-        [ $code -eq 0 ] && break
-        [ $code -eq 6 ] && grep -q "out of memory" "$work/poor.log" ||
-            { echo "allocation $n: exit $code"; cat "$work/poor.log"; return 1; }
-        no_halves "$work/poor" || return
-        tried=$((tried + 1))
-        n=$((n + 1 + n / ${SPARSE:-4}))
-    done
-    echo "# figure kirsch-$1: $tried failing allocations tried, all before number $n"
-    [ $tried -gt 5 ]
 }
 
 # A disk that is full after so many KiB: exit 3, and nothing half written.
@@ -174,6 +206,15 @@ read_only() {
     return $code
 }
 
+# A kirsch-gmsh that crashes, or is not there: said, and no mesh is left. The voronoi grid does without it.
+gmsh_that() { # words, what stands in its place
+    mkdir -p "$work/bin" && cp "$build/kirsch-mesh" "$work/bin/" && rm -rf "$work/bin/kirsch-gmsh" "$work/without" || return
+    [ -z "$2" ] || { printf '#!/bin/sh\n%s\n' "$2" >"$work/bin/kirsch-gmsh" && chmod +x "$work/bin/kirsch-gmsh"; } || return
+    stops 5 "$1" "$work/bin/kirsch-mesh" --output "$work/without" "$work/case.yaml" || return
+    [ -e "$work/without/plate.msh" ] && return 1
+    "$work/bin/kirsch-mesh" --set mesh.grid=voronoi --output "$work/without" "$work/case.yaml"
+}
+
 check takes_the_older_checkpoint_if_cut damaged cut
 check takes_the_older_checkpoint_if_changed damaged flip
 check two_damaged_checkpoints both_damaged
@@ -185,7 +226,15 @@ check history_that_is_a_link links history.csv file
 check link_left_beside link_beside
 check read_only_folder read_only
 check results_cut_anywhere cut_results
-for program in mesh nodes solve; do check "memory_gives_out_in_$program" memory $program; done
+check full_disk_that_is_freed full_then_freed
+check checkpoint_beyond_the_run resealed "which the run does not have" "file.attrs['step'] = 10**9"
+check checkpoint_of_other_stages resealed "which the run does not have" "file.attrs['stage'] = 7"
+check checkpoint_with_a_bond_to_nowhere resealed "found node 1000000" \
+    "del file['bond'], file['bond_time'], file['bond_energy']; file.create_dataset('bond', data=[[1, 1000000]], dtype='i4'); file['bond_time'] = [0.]; file['bond_energy'] = [0.]"
+check checkpoint_with_a_bond_that_never_was resealed "a bond lives that the body does not have" "file['living'][...] = -1"
+check history_that_is_lost lost_history
+check gmsh_that_crashes gmsh_that "it crashed" 'kill -SEGV $$'
+check gmsh_that_is_missing gmsh_that "kirsch-gmsh is missing" ''
 check full_disk_in_nodes full_disk nodes 64
 check full_disk_in_solve full_disk solve 16
 check full_disk_in_checkpoint full_disk solve 40
