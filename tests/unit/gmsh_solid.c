@@ -116,8 +116,8 @@ static void solid_crashes_warnings_and_hangs_are_told(void **unused) {
     kr_free(body);
     char *path = helper("hangs", "while :; do :; done");
     time_t began = time(NULL);
-    kr_check_stops(fill, path, KR_EXIT_LIBRARY, "not optimized, failed: it was not done after 2 s");
-    assert_true(time(NULL) - began < 12);
+    kr_check_stops(fill, path, KR_EXIT_LIBRARY, "not optimized, failed: it was not done after 2 s of work");
+    assert_true(time(NULL) - began < 2 * 2 * 20); /* the limit by the clock */
     kr_free(path);
 }
 
