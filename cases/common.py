@@ -3,7 +3,7 @@
 
 A case is a folder cases/NAME with case.yaml, README.md and a driver `run`, called by
 `make cases/NAME` (FULL=1: the published size). Each comparison is one row of
-build/validation/NAME.csv and of the table in the README, which the driver writes itself.
+build/validation/NAME.csv (NAME-full.csv) and of the table in the README, which the driver writes itself.
 """
 import csv
 import math
@@ -103,7 +103,7 @@ class Case:
         """Write the CSV and the table between the marks of the README, and print it."""
         self.row("wall time of all runs [s]", self.seconds)
         self.row("most memory of a program [MB]", self.megabytes)
-        path = os.path.join(BUILD, "validation", self.name + ".csv")
+        path = os.path.join(BUILD, "validation", self.name + ("-full" if FULL else "") + ".csv")
         os.makedirs(os.path.dirname(path), exist_ok=True)
         with open(path + ".new", "w", newline="") as file:
             writer = csv.DictWriter(file, COLUMNS)

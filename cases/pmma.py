@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the three cases of PMMA plates with rows of pores share: section 5 of the plates paper."""
+import matplotlib.pyplot as pyplot
 import numpy
+from matplotlib.collections import LineCollection
 
-from common import Case, table_of
+from common import FULL, Case, table_of
 
 RADIUS, PITCH, ROWS = 0.75e-3, 50e-3 / 9, 8
 MIDDLE = 12.5e-3
+OFFSETS = {"pmma-a": (0.0,), "pmma-b": (0.5,), "pmma-c": (-0.5, 0.5)}  # of the rows from the middle, in pitches
 NOTCH = {"long": 2e-3, "short": 0.75e-3}
 # The short notch holds longer: the run goes on until the crack is through.
 END = {"long": "400 us", "short": "460 us"}
@@ -104,27 +107,60 @@ def run(case, notch, grid=None, deck="case.yaml", owner=""):
     return label
 
 
+def draw_path(case, label, axis):
+    """The tips of each branch, coloured by their speed over Rayleigh's, and the pores."""
+    tips = table_of(case.path(label, "tips.csv"))
+    for branch in sorted(set(tips["branch"])):
+        of = tips["branch"] == branch
+        points = 1e3 * numpy.column_stack([tips["x [m]"][of], tips["y [m]"][of]])
+        pieces = numpy.stack([points[:-1], points[1:]], axis=1)
+        lines = axis.add_collection(LineCollection(pieces, cmap="viridis", linewidths=1.6))
+        lines.set(array=tips["speed_over_rayleigh"][of][1:], clim=(0, 1))
+    for k in range(1, ROWS + 1):
+        for offset in OFFSETS[case.name]:
+            centre = 1e3 * k * PITCH, 1e3 * (MIDDLE + offset * PITCH)
+            axis.add_patch(pyplot.Circle(centre, 1e3 * RADIUS, fill=False, lw=0.6))
+    axis.set(xlim=(0, 50), ylim=(5, 20), aspect="equal", title=label)
+    return lines
+
+
+def draw(case, labels):
+    """All runs of a case in one picture."""
+    figure, axes = pyplot.subplots(2, 2, figsize=(11, 4.6), layout="constrained", sharex=True, sharey=True)
+    for axis in axes.flat[len(labels):]:
+        axis.set_visible(False)
+    for axis, label in zip(axes.flat, labels):
+        lines = draw_path(case, label, axis)
+    figure.colorbar(lines, ax=axes, label="crack speed / Rayleigh speed")
+    figure.supxlabel("x [mm]")
+    figure.supylabel("y [mm]")
+    case.save(figure, "paths.png")
+
+
 def compare(name, first_pore):
-    """Run one arrangement with both notches on the paper's grid, and on ours.
+    """Run one arrangement with both notches on the paper's grid, and on ours (full: the long one alone).
 
     first_pore  {notch: test of the speed over Rayleigh's at the edge of the first pore, its words}
     """
-    case = Case(name)
-    for grid in (None, "voronoi"):
-        for notch in NOTCH:
-            label = run(case, notch, grid)
-            tips, events, branches, summary = look(case, label, notch)
-            speed = at_first_pore(tips)
-            test, words = first_pore[notch]
-            case.row(f"{label}: speed over Rayleigh's at the first pore", speed,
-                     verdict=bool(test(speed)), source=words)
-            low, seen = valleys(tips)
-            if name != "pmma-a":
-                case.row(f"{label}: pores beside a valley of the speed", f"{low} of {seen}",
-                         verdict=bool(seen and low > seen / 2), source="paper, Fig. 15: valleys at the pores")
-            share = trapped(events, tips)
-            if len(share):
-                case.row(f"{label}: time in a pore over diameter/speed, median of {len(share)}",
-                         float(numpy.median(share)), reference=1.0, tolerance=0.5,
-                         source="paper, Fig. 16: equal")
+    case, labels = Case(name), []
+    for grid, notch in ((None, "long"), (None, "short"), ("voronoi", "long"), ("voronoi", "short")):
+        if FULL and grid and notch == "short":
+            continue
+        label = run(case, notch, grid)
+        labels.append(label)
+        tips, events, branches, summary = look(case, label, notch)
+        speed = at_first_pore(tips)
+        test, words = first_pore[notch]
+        case.row(f"{label}: speed over Rayleigh's at the first pore", speed,
+                 verdict=bool(test(speed)), source=words)
+        low, seen = valleys(tips)
+        if name != "pmma-a":
+            case.row(f"{label}: pores beside a valley of the speed", f"{low} of {seen}",
+                     verdict=bool(seen and low > seen / 2), source="paper, Fig. 15: valleys at the pores")
+        share = trapped(events, tips)
+        if len(share):
+            case.row(f"{label}: time in a pore over diameter/speed, median of {len(share)}",
+                     float(numpy.median(share)), reference=1.0, tolerance=0.5,
+                     source="paper, Fig. 16: equal")
+    draw(case, labels)
     case.finish()

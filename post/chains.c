@@ -35,7 +35,7 @@ struct skeleton {
 };
 
 static size_t band_of(const struct skeleton *s, size_t i) {
-    return (size_t)(s->front->length[i] / s->width);
+    return (size_t)(s->front->length[i] / s->width + KR_FRONT_SLACK);
 }
 
 /* ---- 1: pieces --------------------------------------------------------------------------- */
@@ -87,7 +87,9 @@ static void find_pieces(struct skeleton *s) {
 static int earlier(const struct kr_front *front, size_t i, size_t j) {
     if (front->arrival[i] != front->arrival[j])
         return front->arrival[i] < front->arrival[j];
-    return front->length[i] < front->length[j];
+    if (front->length[i] != front->length[j])
+        return front->length[i] < front->length[j];
+    return front->rank[i] < front->rank[j];
 }
 
 static void find_before(struct skeleton *s) {
@@ -122,7 +124,7 @@ static void sort_pieces(struct skeleton *s) {
 static int goes_on(const struct skeleton *s, size_t p) {
     const struct piece *piece = s->list + p, *before = s->list + piece->before;
     double grown = piece->reaches - (double)piece->band * s->width;
-    int far = grown >= KR_FRONT_SHORTEST * s->front->record->horizon;
+    int far = grown >= KR_FRONT_SHORTEST * s->front->record->horizon * (1 - KR_FRONT_SLACK);
     /* the arm of a source must be a crack by itself; elsewhere the longest arm is the crack */
     if (before->before == NONE && s->front->source[piece->source].is_precrack)
         return far;

@@ -20,6 +20,7 @@ def tips_by_box(case):
         rows = tips["branch"] == box
         result.append((int(box), {"x": 1e3 * tips["x"][rows], "y": 1e3 * tips["y"][rows],
                                   "time": 1e6 * tips["time"][rows],
+                                  "distance": 1e3 * tips["distance"][rows],
                                   "speed": tips["speed_over_rayleigh"][rows]}))
     return result
 
@@ -42,8 +43,8 @@ def smooth(values):
 
 
 def pieces(tip, jump):
-    """Slices of the tip's way between moves of more than `jump` at once."""
-    moved = np.hypot(np.diff(tip["x"]), np.diff(tip["y"]))
+    """Slices of the tip's way between holes: across one it goes by more than `jump`, its path does not."""
+    moved = np.hypot(np.diff(tip["x"]), np.diff(tip["y"])) - np.diff(tip["distance"])
     ends = [0, *(np.flatnonzero(moved > jump) + 1), len(tip["x"])]
     return [slice(a, b) for a, b in zip(ends[:-1], ends[1:])]
 
@@ -60,7 +61,7 @@ def speed(case):
     for x, _, _ in holes_on_path(case, tips):
         axes.axvline(x, linestyle=(0, (4, 3)), linewidth=0.7, color="0.45")
     over = axes.twinx()
-    jump = 1e3 * case.run().attrs["horizon"]
+    jump = 0.5e3 * case.run().attrs["horizon"]
     highest = 0
     for box, t in tips:
         colour = COLOURS[(box - 1) % len(COLOURS)]

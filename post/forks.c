@@ -63,19 +63,6 @@ static int is_before(const struct line *line, size_t count, const double x[2], d
     return 1;
 }
 
-/** A node of the front stands for a place in kr_path_place; here the place is a free point. */
-static double distance_to(const struct kr_path *path, const double x[2]) {
-    double least = INFINITY;
-    for (size_t k = 0; k + 1 < path->n; k++) {
-        const double *a = path->x + 2 * k;
-        double e[2] = {a[2] - a[0], a[3] - a[1]}, square = e[0] * e[0] + e[1] * e[1];
-        double part = square > 0 ? ((x[0] - a[0]) * e[0] + (x[1] - a[1]) * e[1]) / square : 0;
-        part = fmin(fmax(part, 0), 1);
-        least = fmin(least, hypot(a[0] + part * e[0] - x[0], a[1] + part * e[1] - x[1]));
-    }
-    return least;
-}
-
 /** Distance of a point from the arm that begins at the anchor. */
 static double distance_to_arm(const struct line *line, const double *anchor, const double *x) {
     double e[2] = {line->at[0] - anchor[0], line->at[1] - anchor[1]};
@@ -90,17 +77,8 @@ static double distance_to_arm(const struct line *line, const double *anchor, con
 static void hand_over(const struct kr_front *front, const struct kr_chain *parent,
                       const struct kr_path *trunk, const struct line *line, const size_t *child,
                       size_t count, const double *fork, size_t *of) {
-    double end = trunk->s[trunk->n - 1], at = 0, least = INFINITY;
     const double far = FARTHEST * front->record->horizon;
-    for (int k = 0; k <= 200; k++) { /* arc length of the fork, to half a percent of `far` */
-        double s = fmax(end - far, 0) + (end - fmax(end - far, 0)) * k / 200, x[2], off;
-        kr_path_point(trunk, s, x);
-        off = hypot(x[0] - fork[0], x[1] - fork[1]);
-        if (off < least) {
-            least = off;
-            at = s;
-        }
-    }
+    double away, at = kr_path_nearest(trunk, fmax(trunk->s[trunk->n - 1] - far, 0), fork, &away);
     for (size_t k = 0; k < parent->count; k++) {
         size_t i = parent->node[k], best = 0;
         if (of[i] != of[parent->node[0]] || k == 0 || kr_path_place(front, trunk, i, NULL) <= at)
@@ -119,7 +97,7 @@ static void place_fork(const struct kr_front *front, const struct kr_chains *cha
     struct line *line = KR_NEW(struct line, parent->n_children);
     size_t *child = KR_NEW(size_t, parent->n_children), count = 0;
     struct kr_path trunk, arm;
-    double fork[2];
+    double fork[2], away = INFINITY;
     for (size_t k = c + 1; k < chains->count; k++)
         if (chains->item[k].parent == c) {
             line[count] = line_of(front, chains->item + k, &arm);
@@ -128,8 +106,9 @@ static void place_fork(const struct kr_front *front, const struct kr_chains *cha
         }
     kr_path_lay(front, parent->count, parent->node, NULL, &trunk);
     if (meet(line, count, fork) &&
-        is_before(line, count, fork, FARTHEST * front->record->horizon) &&
-        distance_to(&trunk, fork) <= front->record->horizon)
+        is_before(line, count, fork, FARTHEST * front->record->horizon))
+        kr_path_nearest(&trunk, 0, fork, &away);
+    if (away <= front->record->horizon)
         hand_over(front, parent, &trunk, line, child, count, fork, of);
     else
         kr_path_point(&trunk, trunk.s[trunk.n - 1], fork);

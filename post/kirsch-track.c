@@ -122,6 +122,8 @@ static void track_run(struct kr_deck *deck, const struct kr_case *c) {
     write_table(c, &report, "tips.csv", kr_report_tips);
     write_table(c, &report, "branches.csv", kr_report_branches);
     write_table(c, &report, "events.csv", kr_report_events);
+    if (tree->countable)
+        write_table(c, &report, "damage.csv", kr_report_damage);
     if (report.n_tracks)
         write_table(c, &report, "boxes.csv", kr_report_boxes);
     if (record->dim == 3)

@@ -15,8 +15,9 @@
 /** Whether the way to where the crack went leads through a node: on by a branch's length, or to the
  *  end of the leg. */
 static int leads_on(const struct kr_front *front, size_t i, double end) {
-    return front->leads[i] - front->length[i] >= KR_FRONT_SHORTEST * front->record->horizon ||
-           front->leads[i] >= end - front->record->horizon;
+    const double horizon = front->record->horizon * (1 - KR_FRONT_SLACK);
+    return front->leads[i] - front->length[i] >= KR_FRONT_SHORTEST * horizon ||
+           front->leads[i] >= end - horizon * (1 + 2 * KR_FRONT_SLACK);
 }
 
 /** Whether a node or a neighbour in its leg leads on: not so in twigs at its sides. */
@@ -84,19 +85,46 @@ static void measure_leg(const struct kr_chains *chains, size_t c, const double *
     leg->last_time = last->time;
 }
 
+/** The moves of an arm begin at the fork. */
+static void begin_at_fork(struct kr_leg *leg) {
+    struct kr_path *path = &leg->path;
+    struct kr_move at = path->move[0];
+    if (at.s <= 0 && at.time <= leg->first_time)
+        return;
+    at = (struct kr_move){leg->first_time, 0, {leg->from[0], leg->from[1]}, at.angle, NAN, NAN, NAN, 0};
+    path->move = kr_realloc(path->move, path->count + 1, sizeof at);
+    memmove(path->move + 1, path->move, path->count++ * sizeof at);
+    path->move[0] = at;
+}
+
+/** The moves of a leg end at its fork: what its tip did later, or farther on, its arms did. */
+static void end_at_fork(struct kr_leg *leg) {
+    struct kr_path *path = &leg->path;
+    struct kr_move at = path->move[path->count - 1];
+    double away, near = kr_path_nearest(path, 0, leg->to, &away);
+    while (path->count && (path->move[path->count - 1].time > leg->last_time ||
+                           path->move[path->count - 1].s > near))
+        path->count--;
+    leg->end_s = near + away;
+    at = (struct kr_move){leg->last_time, leg->end_s, {leg->to[0], leg->to[1]}, at.angle, NAN, NAN, NAN, 0};
+    path->move = kr_realloc(path->move, path->count + 1, sizeof at);
+    path->move[path->count++] = at;
+}
+
 /** A leg that forks ends where and when its arms begin: all at one time. */
 static void join_arms(struct kr_legs *legs, size_t c) {
     struct kr_leg *leg = legs->item + c;
-    const struct kr_move *last = leg->path.move + leg->path.count - 1;
     for (size_t k = c + 1; k < legs->count; k++)
         if (legs->item[k].parent == c) {
             memcpy(leg->to, legs->item[k].from, sizeof leg->to);
             leg->last_time = fmin(leg->last_time, legs->item[k].first_time);
         }
-    leg->end_s = last->s + hypot(leg->to[0] - last->x[0], leg->to[1] - last->x[1]);
     for (size_t k = c + 1; k < legs->count; k++)
-        if (legs->item[k].parent == c)
+        if (legs->item[k].parent == c) {
             legs->item[k].first_time = leg->last_time;
+            begin_at_fork(legs->item + k);
+        }
+    end_at_fork(leg);
 }
 
 void kr_legs_find(const struct kr_front *front, struct kr_legs *legs) {

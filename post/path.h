@@ -48,6 +48,10 @@ void kr_path_lay(const struct kr_front *front, size_t count, const size_t *node,
 double kr_path_place(const struct kr_front *front, const struct kr_path *path, size_t node,
                      double *away);
 
+/** Arc length [m] of the point of the centre line, from the arc length `from` on, that is nearest to x;
+ *  `away` gets the distance [m]. */
+double kr_path_nearest(const struct kr_path *path, double from, const double x[2], double *away);
+
 /** The point [m] at an arc length. */
 void kr_path_point(const struct kr_path *path, double s, double x[2]);
 

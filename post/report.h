@@ -23,6 +23,7 @@ struct kr_report {
 void kr_report_boxes(const struct kr_report *report, const char *path);
 void kr_report_tips(const struct kr_report *report, const char *path);
 void kr_report_branches(const struct kr_report *report, const char *path);
+void kr_report_damage(const struct kr_report *report, const char *path);
 void kr_report_events(const struct kr_report *report, const char *path);
 void kr_report_summary(const struct kr_report *report, const char *path);
 

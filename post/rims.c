@@ -37,7 +37,8 @@ struct kr_rims *kr_rims_create(const struct kr_front *front) {
                 rims->x[3 * k + a] = record->position[2 * i + a];
             k++;
         }
-    rims->search = kr_search_create(3, rims->n, rims->x, record->horizon);
+    rims->search = kr_search_create(3, rims->n, rims->x,
+                                    record->horizon * (1 + KR_FRONT_SLACK));
     return rims;
 }
 

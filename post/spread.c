@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
  * Arrival and length from the sources, steps (3) and (4) of front.h: two floods by a priority queue
- * (Dijkstra, Numer. Math. 1, 1959). The order (arrival, length, index) is total, so that the result
+ * (Dijkstra, Numer. Math. 1, 1959). The order (arrival, length, rank) is total, so that the result
  * does not depend on how the queue breaks ties.
  */
 #include "front.h"
@@ -15,7 +15,7 @@
 
 struct entry {
     double arrival, length;
-    size_t i;
+    size_t rank, i;
 };
 
 /** A binary heap; entries that were overtaken stay in it and are passed over. */
@@ -29,7 +29,7 @@ static int before(const struct entry *a, const struct entry *b) {
         return a->arrival < b->arrival;
     if (a->length != b->length)
         return a->length < b->length;
-    return a->i < b->i;
+    return a->rank < b->rank;
 }
 
 static void push(struct queue *queue, struct entry entry) {
@@ -64,13 +64,13 @@ static void begin(struct kr_front *front, struct queue *queue) {
     for (size_t s = 0; s < front->n_sources; s++) {
         size_t i = front->source[s].birth;
         front->source_of[i] = s;
-        push(queue, (struct entry){fmax(front->time[i], 0), 0, i});
+        push(queue, (struct entry){fmax(front->time[i], 0), 0, front->rank[i], i});
     }
 }
 
 /** How far j is by way of i. Within a pre-crack all nodes are reached at no length. */
 static double step(const struct kr_front *front, size_t i, size_t j) {
-    return front->time[i] < 0 && front->time[j] < 0 ? 0 : kr_front_distance(front, i, j);
+    return front->time[i] < 0 && front->time[j] < 0 ? 0 : kr_front_step(front, i, j);
 }
 
 static void find_arrivals(struct kr_front *front) {
@@ -84,7 +84,7 @@ static void find_arrivals(struct kr_front *front) {
         for (size_t k = front->first[now.i]; k < front->first[now.i + 1]; k++) {
             size_t j = (size_t)front->near[k];
             if (isinf(front->arrival[j]))
-                push(&queue, (struct entry){fmax(now.arrival, front->time[j]), 0, j});
+                push(&queue, (struct entry){fmax(now.arrival, front->time[j]), 0, front->rank[j], j});
         }
     }
     kr_free(queue.item);
@@ -95,12 +95,14 @@ static void tell(struct kr_front *front, struct queue *queue, const char *done, 
     for (size_t k = front->first[i]; k < front->first[i + 1]; k++) {
         size_t j = (size_t)front->near[k];
         double length = front->length[i] + step(front, i, j);
-        if (done[j] || front->arrival[j] < front->arrival[i] || !(length < front->length[j]))
+        if (done[j] || front->arrival[j] < front->arrival[i] || length > front->length[j] ||
+            (length == front->length[j] && (front->parent[j] == NONE ||
+                                            front->rank[front->parent[j]] <= front->rank[i])))
             continue;
         front->length[j] = length;
         front->parent[j] = i;
         front->source_of[j] = front->source_of[i];
-        push(queue, (struct entry){front->arrival[j], length, j});
+        push(queue, (struct entry){front->arrival[j], length, front->rank[j], j});
     }
 }
 

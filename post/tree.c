@@ -220,9 +220,9 @@ static void find_events(struct kr_tree *tree) {
             note_start(tree, b + 1, k, leg);
             note_end(tree, b + 1, leg);
         }
-    for (size_t k = 0; k < tree->front->n_specks; k++) {
-        size_t i = tree->front->speck[k].birth;
-        note(tree, tree->front->time[i], KR_EVENT_SPECK, 0, tree->front->x + 3 * i, 0, 0);
+    for (size_t k = 0; k < tree->owners.n_specks; k++) {
+        size_t i = tree->owners.item[k].birth;
+        note(tree, tree->front->time[i], KR_EVENT_SPECK, 0, tree->front->x + 3 * i, 0, k + 1);
     }
     if (tree->n_events)
         qsort(tree->event, tree->n_events, sizeof *tree->event, event_order);
@@ -240,7 +240,6 @@ struct kr_tree *kr_tree_grow(const struct kr_record *record) {
     if (!tree->countable)
         return tree;
     tree->front = kr_front_create(record);
-    tree->specks = tree->front->n_specks;
     kr_legs_find(tree->front, &tree->legs);
     tree->branch_of_leg = KR_NEW(size_t, tree->legs.count);
     turn = turns_of(&tree->legs);
@@ -248,6 +247,7 @@ struct kr_tree *kr_tree_grow(const struct kr_record *record) {
         place_leg(tree, turn[k].leg);
     for (size_t b = 0; b < tree->count; b++)
         find_speeds(tree, tree->branch + b);
+    kr_owners_find(tree->front, &tree->legs, tree->branch_of_leg, &tree->owners);
     find_events(tree);
     kr_free(turn);
     return tree;
@@ -260,6 +260,7 @@ void kr_tree_free(struct kr_tree *tree) {
         kr_free(tree->branch[b].hole);
         kr_free(tree->branch[b].leg);
     }
+    kr_owners_clear(&tree->owners);
     kr_legs_clear(&tree->legs);
     kr_front_free(tree->front);
     kr_free(tree->branch_of_leg);

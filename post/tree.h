@@ -11,6 +11,7 @@
 #define KR_TREE_H
 
 #include "legs.h"
+#include "owners.h"
 
 struct kr_branch {
     size_t parent;            /* number of the branch, from 1; 0: none */
@@ -33,7 +34,7 @@ enum kr_event_kind { KR_EVENT_BIRTH, KR_EVENT_BRANCH, KR_EVENT_MERGE, KR_EVENT_E
 struct kr_event {
     double time; /* s */
     int kind;    /* enum kr_event_kind */
-    size_t branch, other; /* numbers; 0: none */
+    size_t branch, other; /* numbers; 0: none. Of a speck: 0 and the speck's */
     double x[2]; /* m */
     int hole;    /* number; 0: none */
 };
@@ -41,10 +42,11 @@ struct kr_event {
 struct kr_tree {
     int countable;     /* 0: more than half of the nodes are damaged, or the body is in 3D: there
                           are no lines */
-    size_t damaged, specks;
+    size_t damaged;
     struct kr_front *front;
     struct kr_legs legs;
     size_t *branch_of_leg; /* (legs.count) numbers */
+    struct kr_owners owners;
     size_t count, room;
     struct kr_branch *branch; /* number k is branch[k - 1], in the order of their starts */
     size_t n_events, events_room;

@@ -13,7 +13,7 @@ def tree(case):
     figure, (axes,), bar, pixels = panels(case, 1)
     show(axes, case, paint(case, case.field(names[-1], "Damage"), pixels), "Greys", 2)
     outline_holes(axes, case)
-    jump = 1e3 * case.run().attrs["horizon"]
+    jump = 0.5e3 * case.run().attrs["horizon"]
     lines, speeds = [], []
     for _, t in tips:
         for some in pieces(t, jump):

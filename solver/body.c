@@ -7,22 +7,31 @@
 
 #include "base/memory.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* As kr_bonds_padded. */
-static float *padded_floats(size_t n) {
+/* As kr_bonds_padded, of float or int32_t. */
+static void *padded(size_t n) {
     return KR_NEW(float, n + 2 * KR_PAIR + KR_LANES) + KR_PAIR;
 }
 
+static void free_padded(void *array) {
+    kr_free((float *)array - KR_PAIR);
+}
+
 static void free_rounded(struct kr_body *body) {
-    for (int d = 0; d < body->dim && body->rounded; d++) {
-        kr_free(body->rounded->high[d] - KR_PAIR);
-        kr_free(body->rounded->low[d] - KR_PAIR);
+    struct kr_rounded *rounded = body->rounded;
+    if (!rounded)
+        return;
+    for (int d = 0; d < body->dim; d++) {
+        free_padded(rounded->high[d]);
+        free_padded(rounded->low[d]);
+        free_padded(rounded->place[d]);
     }
-    if (body->rounded)
-        kr_free(body->rounded->factor - KR_PAIR);
-    kr_free(body->rounded);
+    free_padded(rounded->factor);
+    free_padded(rounded->volume);
+    kr_free(rounded);
 }
 
 struct kr_body *kr_body_create(struct kr_bonds *bonds) {
@@ -57,15 +66,23 @@ void kr_body_free(struct kr_body *body) {
 }
 
 void kr_body_mix(struct kr_body *body) {
+    const struct kr_bonds *b = body->bonds;
     body->kernel = kr_kernel_mixed();
     struct kr_rounded *rounded = body->rounded = KR_NEW(struct kr_rounded, 1);
+    rounded->unit = ldexp(b->material.horizon, -30);
     for (int d = 0; d < body->dim; d++) {
-        rounded->high[d] = padded_floats(body->n);
-        rounded->low[d] = padded_floats(body->n);
+        rounded->high[d] = padded(body->n);
+        rounded->low[d] = padded(body->n);
+        rounded->place[d] = padded(body->n);
+        for (size_t i = 0; i < body->n; i++)
+            rounded->place[d][i] = (int32_t)(uint32_t)llround(b->x[d][i] / rounded->unit);
     }
-    rounded->factor = padded_floats(body->n);
-    for (size_t i = 0; i < body->n; i++)
-        rounded->factor[i] = (float)body->bonds->factor[i];
+    rounded->factor = padded(body->n);
+    rounded->volume = padded(body->n);
+    for (size_t i = 0; i < body->n; i++) {
+        rounded->factor[i] = (float)b->factor[i];
+        rounded->volume[i] = (float)b->volume[i];
+    }
 }
 
 /* Bring `rounded` up to date where u may have been changed by anyone since the last time. */

@@ -26,7 +26,8 @@
  * Mixed precision (KR_FLOAT): what is made of the differences is float, and so are the sums over a
  * family. A displacement is the sum of two floats there (kr_rounded), so that its differences are as
  * good as those of doubles rounded to float, without the cost of conversions: the difference of the
- * high parts is exact where they are close, and else not small.
+ * high parts is exact where they are close, and else not small. Positions are whole numbers modulo
+ * 2^32, whose differences are exact within a family.
  * How fast: docs/performance.md.
  */
 #include "kernel.h"
@@ -289,14 +290,32 @@ INLINE vector cone(vector inverse, double horizon) {
     return only(share, share > 0);
 }
 
+INLINE vector load_xi(const struct kr_kernel_work *work, int d, struct place j, struct place i,
+                      int apart) {
+#ifdef KR_FLOAT
+    return load_steps(work->rounded->place[d], j, i, apart) * (number)work->rounded->unit;
+#else
+    return load_difference(work->bonds->x[d], j, i, apart);
+#endif
+}
+
+INLINE vector load_volume(const struct kr_kernel_work *work, struct place j, int apart) {
+#ifdef KR_FLOAT
+    return load_floats(work->rounded->volume, j, apart);
+#else
+    return load(work->bonds->volume, j, apart);
+#endif
+}
+
 /* A row; row->j is set. inverse: where its 1/|xi| are; weight: where its weights are, if `rim`. */
-INLINE void general_row(const struct kr_bonds *b, struct shape shape, const struct lanes *l,
+INLINE void general_row(const struct kr_kernel_work *work, struct shape shape, const struct lanes *l,
                         struct place inverse, struct place weight, int rim, struct row *row) {
+    const struct kr_bonds *b = work->bonds;
     vector root = load_floats(b->inverse, inverse, shape.apart), square = root * root;
     for (int d = 0; d < shape.dim; d++)
-        row->xi[d] = load_difference(b->x[d], row->j, l->node, shape.apart);
+        row->xi[d] = load_xi(work, d, row->j, l->node, shape.apart);
     row->to_t = square * (number)fit_of(b)->scale;
-    row->pull = load(b->volume, row->j, shape.apart) * (root * square);
+    row->pull = load_volume(work, row->j, shape.apart) * (root * square);
     if (b->material.profile == KR_CONICAL)
         row->pull *= cone(root, b->material.horizon);
     if (rim)
@@ -326,7 +345,7 @@ INLINE void do_rows(struct lanes l[COUNT], const struct kr_kernel_work *work, st
             row[p].j = (struct place){l[p].node.at + (size_t)(ptrdiff_t)offset[at],
                                       l[p].node.upper + (size_t)(ptrdiff_t)offset[second]};
             row[p].keep = mask_of(bits >> (part + p * WIDTH));
-            general_row(b, shape, &l[p], inverse, weight, rim, &row[p]);
+            general_row(work, shape, &l[p], inverse, weight, rim, &row[p]);
         }
         add_rows(l, work, shape, row);
     }

@@ -11,7 +11,9 @@
  *  pair of slices before and behind, as those of kr_bonds_padded. */
 struct kr_rounded {
     float *high[3], *low[3]; /* m */
-    float *factor;           /* lambda */
+    float *factor, *volume;  /* lambda; m^2, in 3D m^3 */
+    int32_t *place[3];       /* position in units, modulo 2^32: differences within a family are right */
+    double unit;             /* m, 2^-30 of the horizon */
     int current;             /* high and low are those of u: kr_body_advance left them so */
 };
 

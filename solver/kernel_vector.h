@@ -139,6 +139,16 @@ INLINE vector load_difference(const double *array, struct place to, struct place
 #endif
 }
 
+#ifdef KR_FLOAT
+/* Differences of whole numbers modulo 2^32. */
+INLINE vector load_steps(const int32_t *array, struct place to, struct place from, int apart) {
+    typedef uint32_t modular __attribute__((vector_size(VECTOR_BYTES)));
+    const float *bits = (const float *)array;
+    modular steps = (modular)load_floats(bits, to, apart) - (modular)load_floats(bits, from, apart);
+    return __builtin_convertvector((mask)steps, vector);
+}
+#endif
+
 /* factor * value into consecutive doubles. */
 INLINE void store(double *to, vector value, double factor) {
 #ifdef KR_FLOAT

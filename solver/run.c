@@ -114,7 +114,7 @@ static void run_moving(struct kr_run *run, struct kr_records *r) {
         kr_body_advance(body, step == 0 ? 0.5 * dt : dt, dt);
         kr_records_save(r, step + 1);
         kr_progress_show(&progress, (double)step,
-                         "t %.4g us, %zu bonds broken, %.3g %s of work, balance %.1e",
+                         "t %.4g us, %zu bonds broken, %.3g %s of work, of which %.1e unaccounted",
                          1e6 * (r->at.began + t), r->crack->count, r->ledger->external,
                          kr_ledger_unit(body->dim), r->ledger->balance);
     }

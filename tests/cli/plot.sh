@@ -16,17 +16,9 @@ near() { # name, wanted, tolerance
     ' "$run/summary.csv"
 }
 
-# The command must end with the code and say the words on one line, without a trace.
-stops() { # code, words, command...
-    wanted=$1
-    words=$2
-    shift 2
-    "$@" >"$work/stop" 2>&1
-    code=$?
-    cat "$work/stop"
-    [ $code -eq "$wanted" ] || { echo "ended with $code, wanted $wanted"; return 1; }
-    grep -q "$words" "$work/stop" || { echo "does not say: $words"; return 1; }
-    ! grep -q "Traceback" "$work/stop"
+# As in steps, and without a trace.
+told() { # code, words, command...
+    stops "$@" && ! grep -q "Traceback" "$work/stop"
 }
 
 is_png() { # name, least bytes
@@ -84,12 +76,12 @@ compares_a_field() {
 }
 draws_the_tree() { plot tree && is_png tree 10000; }
 without_ffmpeg() { # a PATH on which there is none
-    stops 0 'warning: no film: cannot start ffmpeg' env PATH="$work" "$build/kirsch-plot" \
+    told 0 'warning: no film: cannot start ffmpeg' env PATH="$work" "$build/kirsch-plot" \
         --output "$run" "$run/case.yaml" tip crack
 }
 without_tips() { # the others are drawn all the same
     mv "$run/tips.csv" "$work/tips.csv"
-    stops 2 'no picture `speed`: .*tips.csv is missing' plot speed history
+    told 2 'no picture `speed`: .*tips.csv is missing' plot speed history
     result=$?
     mv "$work/tips.csv" "$run/tips.csv"
     [ $result -eq 0 ] && grep -q 'history.png' "$work/stop"
@@ -97,23 +89,44 @@ without_tips() { # the others are drawn all the same
 cut_run() {
     cp "$run/run.h5" "$work/whole.h5"
     truncate -s 100000 "$run/run.h5"
-    stops 2 'run.h5: it is cut short or damaged' track &&
-        stops 2 'run.h5: .*cut short or damaged' plot damage
+    told 2 'run.h5: it is cut short or damaged' track &&
+        told 2 'run.h5: .*cut short or damaged' plot damage
     result=$?
     cp "$work/whole.h5" "$run/run.h5"
     return $result
 }
-# Nothing, or everything at once, is damaged in a copy of the run: sentences, not traces.
-with_damage() { # damage time, words of kirsch-track
+# A copy of the run changed by a line of Python, and put back.
+with_run() { # change of f, command...
     cp "$run/run.h5" "$work/whole.h5"
     /usr/bin/python3 -B -c "import sys, h5py
-with h5py.File(sys.argv[1], 'a') as f:
-    f['crack/Damage_Time'][:] = float(sys.argv[2])" "$run/run.h5" "$1"
-    stops 0 "$2" track && stops 0 '' plot speed tip damage
+with h5py.File(sys.argv[1], 'a') as f: $1" "$run/run.h5"
+    shift
+    "$@"
     result=$?
     cp "$work/whole.h5" "$run/run.h5"
     track
     return $result
+}
+# Nothing, or everything at once, is damaged: sentences, not traces, and the maps all the same.
+sees_nothing() {
+    told 0 'none: no damage past the threshold' track && rm -rf "$run/pictures" &&
+        told 0 'no picture `tip`: there is no crack tip' plot && told 0 'no picture `tree`' plot tree &&
+        is_png damage 10000 && is_png history 10000 && [ ! -e "$run/pictures/tip.png" ]
+}
+sees_all() {
+    told 0 'not to be counted: 100 % of all nodes' track && rm -rf "$run/pictures" &&
+        told 0 'no picture `speed`: there is no crack tip' plot && is_png damage 10000 && is_png energy 10000
+}
+one_snapshot="
+  for k in sorted(f['step'])[:-1]: del f['step'][k]"
+sees_one_output() {
+    track && rm -rf "$run/pictures" && told 0 'crack.mp4' plot &&
+        for picture in grid damage energy speed tip tree history; do is_png $picture 10000 || return; done
+}
+no_snapshot="
+  for k in sorted(f['step']): del f['step'][k]"
+sees_no_output() {
+    told 0 'fragments have no momentum' track && told 2 'run.h5 holds no output yet' plot damage
 }
 no_gaps() { # every pixel of the plate belongs to a cell, and none of the hole does
     PYTHONPATH="$build" /usr/bin/python3 -B - "$run/plate.nodes.h5" <<'END'
@@ -146,14 +159,16 @@ check draws_a_field draws_a_field
 check draws_the_tree draws_the_tree
 check draws_other_formats draws_other_formats
 check compares_a_field compares_a_field
-check refuses_limits_upside_down stops 2 'limits: found .2,1., expected the lower one first' plot --field Damage --limits 2,1
-check refuses_an_unknown_field stops 2 'unknown field `Damge`; the run has Damage' plot --field Damge
-check refuses_an_unknown_picture stops 2 'unknown picture `dammage`' plot dammage
+check refuses_limits_upside_down told 2 'limits: found .2,1., expected the lower one first' plot --field Damage --limits 2,1
+check refuses_an_unknown_field told 2 'unknown field `Damge`; the run has Damage' plot --field Damge
+check refuses_an_unknown_picture told 2 'unknown picture `dammage`' plot dammage
 check goes_on_without_ffmpeg without_ffmpeg
 check goes_on_without_tips without_tips
 check tells_a_cut_run cut_run
-check tells_that_nothing_broke with_damage inf 'none: no damage past the threshold'
-check tells_that_everything_broke with_damage 4e-6 'not to be counted: 100 % of all nodes'
+check tells_that_nothing_broke with_run "f['crack/Damage_Time'][:] = float('inf')" sees_nothing
+check tells_that_everything_broke with_run "f['crack/Damage_Time'][:] = 4e-6" sees_all
+check draws_a_single_output with_run "$one_snapshot" sees_one_output
+check tells_a_run_without_output with_run "$no_snapshot" sees_no_output
 check fills_every_pixel no_gaps
-check refuses_an_unknown_argument stops 2 'unknown' "$build/kirsch-track" "$run/case.yaml" --fast
+check refuses_an_unknown_argument told 2 'unknown' "$build/kirsch-track" "$run/case.yaml" --fast
 echo "1..$count"
