@@ -18,6 +18,8 @@
 #   make equilibrium  measure the static solver at three sizes, up to 780 000 nodes
 #   make free-grid  measure the free grid at three sizes (the table in docs/grids.md)
 #   make bench-read time the reader of gmsh's meshes
+#   make bench-tree time crack tracking and maps for 780 000 nodes
+#   make pictures   make the pictures of the documentation anew, from the demo
 #   make node-order  time the loop over bonds with nodes in rows, by METIS, along curves, ...
 #   make lloyd-solid  measure what Lloyd's steps would gain in space (a table in docs/grids.md)
 #   make soak       leave a run alone for two hours (HOURS=), and ask what became of it
@@ -83,7 +85,7 @@ KERNEL_avx2     := -march=x86-64-v3
 KERNEL_avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 $(foreach k,$(kernels),$(eval KERNEL_$(k)_mixed := $(KERNEL_$(k)) -DKR_FLOAT))
 
-.PHONY: FORCE all help demo study test fuzz oracle bench bench-growth bench-read node-order deps \
+.PHONY: FORCE all help demo study test fuzz oracle bench bench-growth bench-read bench-tree pictures node-order deps \
         corrections pores-500 equilibrium free-grid lloyd-solid bar soak validate $(cases) \
         docs format install clean check-deps sbom
 all: check-deps $(programs) $(scripts)
@@ -235,6 +237,12 @@ bar: all $(BUILD)/bar
 
 bench-read: all $(BUILD)/read
 	@BUILD=$(BUILD) cases/bench/meshes
+
+bench-tree: all
+	@BUILD=$(BUILD) cases/bench/tree
+
+pictures: demo
+	@BUILD=$(BUILD) docs/pictures/make
 
 node-order: all $(BUILD)/order
 	@BUILD=$(BUILD) cases/node-order/table

@@ -4,9 +4,10 @@ import os
 
 import numpy as np
 
-from maps import UNITS, energy_limit, lengths, outline_material, paint, panels, save, show
+from maps import Field, outline_material, paint, panels, save, show
 from results import Case, Fault, warn
-from style import DAMAGE, ENERGY, WISH, plt
+from shape import frame
+from style import SIGNED
 
 
 def options(words):
@@ -24,14 +25,11 @@ def options(words):
         raise Fault("compare: --at: found `%s`, expected a time in us" % wanted["--at"])
 
 
-def chosen(case, name, at):
-    """Values of the field at the output nearest to a time, and its time [us]."""
+def nearest(case, at):
+    """Name and time [us] of the output nearest to a time; None: of the last."""
     names, times = case.steps()
     k = len(times) - 1 if at is None else int(np.abs(times - at).argmin())
-    there = list(case.run()["step"][names[k]])
-    if name not in there:
-        raise Fault("unknown field `%s`; %s has %s" % (name, case.folder, ", ".join(there)))
-    return UNITS.get(name, ("SI", 1))[1] * lengths(case.field(names[k], name)), times[k]
+    return names[k], times[k]
 
 
 def draw(words):
@@ -41,22 +39,24 @@ def draw(words):
     a, b = (Case(folder.rstrip("/"), []) for folder in folders)
     if np.abs(np.subtract(a.box(), b.box())).max() > max(a.cells()[4], b.cells()[4]):
         raise Fault("compare: %s and %s are plates of different size" % tuple(folders))
+    corners = [frame(case) for case in (a, b)]  # of cells that move they differ
+    a.rasters["frame"] = b.rasters["frame"] = (np.min([c[0] for c in corners], axis=0),
+                                               np.max([c[1] for c in corners], axis=0))
     figure, axes, bar, wide = panels(a, 3)
-    values, times = zip(*(chosen(case, name, at) for case in (a, b)))
-    painted = [paint(case, some, wide) for case, some in zip((a, b), values)]
-    colours, most = (DAMAGE, 1) if name == "Damage" else (ENERGY, energy_limit(values))
-    least, most = WISH["limits"] or (0, most)
+    field = Field(a, name)
+    steps, times = zip(*(nearest(case, at) for case in (a, b)))
+    values = [Field(case, name).values(case, step) for case, step in zip((a, b), steps)]
+    painted = [paint(case, some, wide, step) for case, some, step in zip((a, b), values, steps)]
+    colours, least, most = field.colours(values)
     for some, case, pixels, time in zip(axes, (a, b), painted, times):
         image = show(some, case, pixels, colours, most, least)
         outline_material(some, case, pixels)
         some.set_title("%s, %.4g µs" % (os.path.basename(case.folder), time), pad=3)
-    unit, label = UNITS.get(name, ("SI", 1))[0], name.replace("_", " ").lower()
-    label += " (%s)" % unit if unit else ""
-    figure.colorbar(image, cax=bar, label=label)
+    figure.colorbar(image, cax=bar, label=field.label)
     difference = painted[0] - painted[1]
     most = float(np.ma.abs(difference).max())
     limit = most or 1
-    image = show(axes[2], a, difference, plt.get_cmap("PuOr"), limit)
+    image = show(axes[2], a, difference, SIGNED, limit)
     outline_material(axes[2], a, difference)
     image.set_clim(-limit, limit)
     axes[2].set_title("difference, at most %.3g" % most, pad=3)
@@ -66,5 +66,5 @@ def draw(words):
     if abs(times[0] - times[1]) > 1e-6 * times[0]:
         warn("compare: the outputs are of %.4g and %.4g µs" % times)
     os.makedirs(a.path("pictures"), exist_ok=True)
-    print("largest difference of %s: %.9g" % (label, most))
-    print(save(a, figure, "compare" if name == "Damage" else "compare-" + name.lower()), flush=True)
+    print("largest difference of %s: %.9g" % (field.label, most))
+    print(save(a, figure, "compare" if name == "Damage" else "compare-" + field.file), flush=True)

@@ -4,6 +4,7 @@ import numpy as np
 
 from maps import outline_holes, paint, panels, save, show
 from results import Nothing, read_csv
+from shape import frame
 from style import COLOURS, DAMAGE, box_label, open_axes, plt
 
 STYLES = "-", "--", "-.", ":"  # of the first, second ... seven branches
@@ -54,9 +55,9 @@ def speed(case):
     tips = tips_by_box(case)
     names, _ = case.steps()
     figure, (axes,), bar, pixels = panels(case, 1)
-    image = show(axes, case, paint(case, case.field(names[-1], "Damage"), pixels), DAMAGE, 1)
-    image.set_alpha(0.45)
-    outline_holes(axes, case)
+    painted = paint(case, case.field(names[-1], "Damage"), pixels)
+    show(axes, case, painted, DAMAGE, 1).set_alpha(0.45)
+    outline_holes(axes, case, painted)
     bar.remove()
     for x, _, _ in holes_on_path(case, tips):
         axes.axvline(x, linestyle=(0, (4, 3)), linewidth=0.7, color="0.45")
@@ -66,20 +67,25 @@ def speed(case):
     for box, t in tips:
         colour = COLOURS[(box - 1) % len(COLOURS)]
         style = STYLES[(box - 1) // len(COLOURS) % len(STYLES)]
-        label = box_label(box, tips)
+        numbered = len(tips) > 1
         for some in pieces(t, jump):
             x, values, bold = t["x"][some], t["speed"][some], smooth(t["speed"][some])
+            there = np.flatnonzero(np.isfinite(bold))
+            if numbered and len(there):
+                at = there[len(there) // 2]
+                over.annotate("%d" % box, (x[at], bold[at]), xytext=(0, 4), textcoords="offset points",
+                              ha="center", color=colour, fontsize=8, fontweight="bold")
+                numbered = False
             over.plot(x, values, color=colour, linewidth=0.4, alpha=0.45)
-            over.plot(x, bold, style, color=colour, linewidth=1.4, label=label)
+            over.plot(x, bold, style, color=colour, linewidth=1.4)
             highest = max(highest, np.nanmax(np.append(bold, 0)))
-            label = None
     over.set_ylim(0, max(1, 1.08 * highest))
-    lower, upper = case.box()
+    lower, upper = frame(case)
     axes.set_xlim(lower[0], upper[0])
     over.set_ylabel("crack speed / Rayleigh speed")
     over.set_title("bold: mean over %d moves of the tip" % SMOOTH, loc="right", pad=3)
     if len(tips) > 1:
-        over.legend(loc="lower left", ncols=2)
+        over.set_title("at the curves: numbers of branches", loc="left", pad=3)
     return save(case, figure, "speed")
 
 
@@ -113,11 +119,13 @@ def history(case):
     for name, label, line in (("external_work", "external work", "-"), ("strain", "strain", "-"),
                               ("kinetic", "kinetic", "-"), ("fracture", "fracture", "-")):
         upper.plot(time, h[name], line, label=label)
-    upper.set_ylabel("energy (J per m of thickness)")
+    with open(case.path("history.csv")) as file:
+        of = " per m of thickness" if "[J/m]" in file.readline() else ""
+    upper.set_ylabel("energy (J%s)" % of)
     upper.legend(loc="upper left")
     lower.plot(time, h["balance"], color=COLOURS[-1], linewidth=0.8)
     lower.axhline(0, color="0.6", linewidth=0.5)
-    lower.set(xlabel="time (µs)", ylabel="balance (J/m)")
+    lower.set(xlabel="time (µs)", ylabel="balance (J%s)" % ("/m" if of else ""))
     for axes in (upper, lower):
         open_axes(axes)
     return save(case, figure, "history")

@@ -13,7 +13,7 @@
 #include "base/h5.h"
 #include "base/memory.h"
 #include "search.h"
-#include "table.h"
+#include "csv_write.h"
 #include "weight.h"
 
 /* Directions in which a fragment's outermost nodes are sought. The largest distance is then short
@@ -256,7 +256,7 @@ double *kr_fragments_velocity(const char *run, size_t n) {
 }
 
 void kr_fragments_write(const struct kr_fragments *fragments, int dim, const char *path) {
-    struct kr_table table = kr_table_begin(
+    struct kr_csv_writer table = kr_csv_begin(
         path, dim == 2 ? "fragment,nodes,mass [kg/m],x [m],y [m],z [m],momentum_x [kg/s],"
                          "momentum_y [kg/s],momentum_z [kg/s],extent [m]"
                        : "fragment,nodes,mass [kg],x [m],y [m],z [m],momentum_x [kg m/s],"
@@ -264,13 +264,13 @@ void kr_fragments_write(const struct kr_fragments *fragments, int dim, const cha
     for (size_t f = 0; f < fragments->count; f++) {
         const struct kr_fragment *one = fragments->item + f;
         fprintf(table.file, "%zu,%zu", f + 1, one->count);
-        kr_table_put(&table, one->mass);
+        kr_csv_put(&table, one->mass);
         for (int d = 0; d < 3; d++)
-            kr_table_put(&table, one->centre[d]);
+            kr_csv_put(&table, one->centre[d]);
         for (int d = 0; d < 3; d++)
-            kr_table_put(&table, one->momentum[d]);
-        kr_table_put(&table, one->extent);
+            kr_csv_put(&table, one->momentum[d]);
+        kr_csv_put(&table, one->extent);
         fprintf(table.file, "\n");
     }
-    kr_table_finish(&table);
+    kr_csv_finish(&table);
 }

@@ -81,7 +81,8 @@ static int earlier(const void *left, const void *right) {
 }
 
 static struct timed timed_of(const struct kr_front *front, size_t i) {
-    const double unit = 1e-6 * front->record->time_step / front->record->horizon; /* not by rounding */
+    const double unit =
+        1e-6 * front->record->time_step / front->record->horizon; /* not by rounding */
     struct timed node = {front->time[i], 0, i};
     for (size_t k = front->first[i]; k < front->first[i + 1]; k++) {
         size_t j = (size_t)front->near[k];

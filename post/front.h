@@ -23,8 +23,9 @@
 #define KR_FRONT_NONE SIZE_MAX
 enum { KR_FRONT_SHORTEST = 3 }; /* horizons: what is shorter is roughness */
 
-/* Distances on a lattice are just such multiples of the horizon. What is within it by rounding alone is within,
- * and all lengths are compared with this slack, so that a turned or mirrored body has the same neighbours. */
+/* Distances on a lattice are just such multiples of the horizon. What is within it by rounding
+ * alone is within, and all lengths are compared with this slack, so that a turned or mirrored body
+ * has the same neighbours. */
 #define KR_FRONT_SLACK 1e-9
 
 struct kr_source {
@@ -42,9 +43,9 @@ struct kr_front {
     double *time;    /* (n) s: T, -1 in the pre-crack */
     size_t *first;   /* (n + 1) neighbours of i: near[first[i]] to near[first[i + 1] - 1] */
     int *near;
-    size_t *rank;    /* (n) place in the order of the times. Of equal times the one whose surroundings
-                        broke sooner comes first, so that mirrored damage has mirrored ranks: least sum
-                        over neighbours of (T_j - T_i)/distance. */
+    size_t *rank; /* (n) place in the order of the times. Of equal times the one whose surroundings
+                     broke sooner comes first, so that mirrored damage has mirrored ranks: least sum
+                     over neighbours of (T_j - T_i)/distance. */
     size_t n_sources, sources_room;
     struct kr_source *source;
     size_t *source_of; /* (n); NONE: in a speck */
@@ -63,8 +64,8 @@ void kr_front_spread(struct kr_front *front);
 
 double kr_front_distance(const struct kr_front *front, size_t i, size_t j);
 
-/** The distance in whole 1/2^30 of about a horizon: sums of such are exact, so that of two ways of equal
- *  length neither is shorter by rounding. */
+/** The distance in whole 1/2^30 of about a horizon: sums of such are exact, so that of two ways of
+ * equal length neither is shorter by rounding. */
 double kr_front_step(const struct kr_front *front, size_t i, size_t j);
 
 #endif

@@ -5,24 +5,9 @@ from matplotlib.collections import LineCollection, PolyCollection
 
 from maps import save
 from results import Fault
+from section import cells_across, cut_faces, cut_tetrahedra, pieces
+from shape import AXES, plane_of
 from style import plt
-
-# Solids of few corners as tetrahedra, and their faces; the order is VTK's.
-TETRAHEDRA = {
-    "tetrahedron": [[0, 1, 2, 3]],
-    "pyramid": [[0, 1, 2, 4], [0, 2, 3, 4]],
-    "wedge": [[0, 1, 2, 3], [1, 2, 3, 4], [2, 3, 4, 5]],
-    "hexahedron": [[0, 1, 2, 6], [0, 2, 3, 6], [0, 3, 7, 6], [0, 7, 4, 6], [0, 4, 5, 6], [0, 5, 1, 6]],
-}
-FACES = {
-    "tetrahedron": [[0, 1, 2], [0, 1, 3], [1, 2, 3], [0, 2, 3]],
-    "pyramid": [[0, 1, 2, 3], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]],
-    "wedge": [[0, 1, 2], [3, 4, 5], [0, 1, 4, 3], [1, 2, 5, 4], [2, 0, 3, 5]],
-    "hexahedron": [[0, 1, 2, 3], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]],
-}
-KINDS = {4: "tetrahedron", 10: "tetrahedron", 5: "pyramid", 13: "pyramid", 6: "wedge", 15: "wedge",
-         8: "hexahedron", 20: "hexahedron"}
-AXES = "xyz"
 
 
 def close_up(case, choice):
@@ -56,16 +41,8 @@ class Choice:
             if not self.place[-1] > 0:
                 raise Fault("void %s comes from a file: give a plane by --slice instead" % number)
         if cut is not None:
-            axis, _, level = cut.partition("=")
-            level = level.strip()
-            if axis.strip() not in tuple(AXES) or not level.endswith("mm"):
-                raise Fault("unknown plane `%s`; expected as --slice 'z=2.5 mm'" % cut)
-            self.axis = AXES.index(axis.strip())
-            try:
-                self.level = float(level[:-2])
-            except ValueError:
-                raise Fault("unknown plane `%s`; expected as --slice 'z=2.5 mm'" % cut)
-            self.name += "_" + axis.strip()
+            self.axis, self.level = plane_of(cut)
+            self.name += "_" + AXES[self.axis]
 
 
 def grid(case, choice=None):
@@ -128,69 +105,3 @@ def section(case, choice, middle, half, axes):
     axes.set_title("%d cells, %d in the plane %s = %.4g mm; spacing %.4g mm"
                    % (len(volume), len(seen), AXES[axis], level, spacing))
     return cells, "volume of a cell / spacing³"
-
-
-def cells_across(point, first, vertex, height, middle, reach, shown):
-    """Cells in the picture with corners on both sides of the plane."""
-    start = first[:-1]
-    tops = np.maximum.reduceat(height[vertex], start)
-    bottoms = np.minimum.reduceat(height[vertex], start)
-    corner = point[vertex[start]]
-    near = (np.abs(corner[:, shown] - middle[shown]) < reach).all(axis=1)
-    return np.flatnonzero((tops > 0) & (bottoms < 0) & near)
-
-
-def pieces(first, vertex, seen):
-    """Tetrahedra of cells, their cells, and the faces of each cell as lists of corners."""
-    solids, owners, faces = [], [], []
-    for k in seen:
-        corner = vertex[first[k]:first[k + 1]]
-        kind = KINDS.get(len(corner))
-        if kind:
-            parts = corner[TETRAHEDRA[kind]]
-            faces += [corner[f] for f in FACES[kind]]
-        else:
-            parts = corner.reshape(-1, 4)
-            sides = np.concatenate([parts[:, f] for f in FACES["tetrahedron"]])
-            _, where, count = np.unique(np.sort(sides, axis=1), axis=0, return_index=True,
-                                        return_counts=True)
-            faces += list(sides[where[count == 1]])  # those between two of the pieces lie inside
-        solids.append(parts)
-        owners.append(np.full(len(parts), k))
-    return np.concatenate(solids), np.concatenate(owners), faces
-
-
-def crossing(point, height, p, q, shown):
-    """Where the edges from p to q go through the plane."""
-    t = (height[p] / (height[p] - height[q]))[..., None]
-    return (point[p] + t * (point[q] - point[p]))[..., shown]
-
-
-def cut_tetrahedra(point, height, solids, owners, shown):
-    """Triangles and quadrilaterals that a plane cuts out of tetrahedra, and the cells they are of."""
-    order = np.argsort(height[solids] > 0, axis=1, kind="stable")  # those below come first
-    solids = np.take_along_axis(solids, order, axis=1)
-    below = (height[solids] < 0).sum(axis=1)
-    polygons, of = [], []
-    for count, edges in ((1, [(0, 1), (0, 2), (0, 3)]), (3, [(3, 0), (3, 1), (3, 2)]),
-                         (2, [(0, 2), (0, 3), (1, 3), (1, 2)])):
-        some = solids[below == count]
-        corners = [crossing(point, height, some[:, a], some[:, b], shown) for a, b in edges]
-        polygons += list(np.stack(corners, axis=1))
-        of.append(owners[below == count])
-    return polygons, np.concatenate(of)
-
-
-def cut_faces(point, height, faces, shown):
-    """Lines in which a plane cuts faces of three and of four corners."""
-    lines = []
-    for n in (3, 4):
-        some = np.array([f for f in faces if len(f) == n]).reshape(-1, n)
-        if not len(some):
-            continue
-        after = np.roll(some, -1, axis=1)
-        cut = (height[some] > 0) != (height[after] > 0)
-        twice = cut.sum(axis=1) == 2  # a bent face may be met four times: left out
-        p, q = some[twice][cut[twice]], after[twice][cut[twice]]
-        lines += list(crossing(point, height, p, q, shown).reshape(-1, 2, 2))
-    return lines

@@ -16,21 +16,23 @@
 /* Not the first `python3` on PATH: that may be one which does not see Debian's packages. */
 #define PYTHON "/usr/bin/python3"
 
-static const char usage[] = "kirsch-plot case.yaml [PICTURE]...\n"
-                            "\n"
-                            "Draws into the folder `pictures` of the case's folder: grid, damage, "
-                            "energy, speed, tip, tree, history\n"
-                            "(PNG) and crack (MP4, by ffmpeg). Without names, all of them.\n"
-                            "\n"
-                            "kirsch-plot compare FOLDER FOLDER [--field NAME] [--at TIME]\n"
-                            "                     two runs and their difference, at the output nearest to "
-                            "TIME in us\n"
-                            "\n"
-                            "  --field NAME       any field of the outputs, as Displacement\n"
-                            "  --limits A,B       of the colours of fields, in the unit shown\n"
-                            "  --format F         png, svg or pdf;  --dpi N   300 unless told\n"
-                            "  grid --hole N      the grid around hole N; --void N of a solid\n"
-                            "  grid --slice 'z=2 mm'   of a solid, in this plane across x, y or z";
+static const char usage[] =
+    "kirsch-plot case.yaml [PICTURE]... [OPTION]...\n"
+    "\n"
+    "Draws into the folder `pictures` of the case's folder: grid, damage, energy, speed, tip, tree, history\n"
+    "(PNG) and crack (MP4, by ffmpeg); of a solid grid, damage, energy, front, history and crack, where a\n"
+    "plane cuts it. Without names, all of them; strip (damage at three times) only by name.\n"
+    "\n"
+    "  --field NAME       any field of the outputs, as Velocity, Velocity.x, Stress.yy\n"
+    "  film --field NAME  the same as a film\n"
+    "  --scale N          maps and films of moved cells, displacements N times as large\n"
+    "  --limits A,B       of the colours of fields, in the unit shown\n"
+    "  --format F         png, svg or pdf;  --dpi N   300 unless told\n"
+    "  grid --hole N      the grid around hole N; --void N of a solid\n"
+    "  --slice 'z=2 mm'   of a solid: the plane of maps and of the grid, across x, y or z\n"
+    "\n"
+    "kirsch-plot compare FOLDER FOLDER [--field NAME] [--at TIME]\n"
+    "                     two runs and their difference, at the output nearest to TIME in us";
 
 /** Replace this program: plot.py compare FOLDER FOLDER; it needs no deck. */
 static void compare(int argc, char **argv) {

@@ -15,8 +15,15 @@ static const char usage[] =
     "\n"
     "Reads run.h5 and plate.nodes.h5 in the case's folder and finds the cracks of the run: where\n"
     "and when each began, how fast it ran, where it branched, merged, met a hole or stopped.\n"
-    "Writes tips.csv, branches.csv, events.csv and summary.csv there, and boxes.csv where the deck\n"
-    "has `track.boxes`; of a solid front.csv and area.csv.";
+    "Writes there\n"
+    "\n"
+    "  tips.csv, branches.csv, events.csv   the tree of cracks of a plate\n"
+    "  damage.csv       whose each damaged node is: of a branch, or of a speck\n"
+    "  boxes.csv        tips in the boxes of the deck (track.boxes)\n"
+    "  front.csv        of a solid: the front of the crack as a curve per time, with its speed\n"
+    "  area.csv         of a solid: the area of the crack over time\n"
+    "  fragments.csv    the pieces that hang together, with mass, momentum and extent\n"
+    "  summary.csv      all together";
 
 static void stop_on_unknown(const struct kr_case_arguments *arguments) {
     if (arguments->n_left)
@@ -97,12 +104,16 @@ static struct kr_fragments break_up(struct kr_deck *deck, const struct kr_case *
 }
 
 /** What only solids have. */
-static void write_sheets(const struct kr_case *c, const struct kr_record *record) {
+static struct kr_sheet *lay_sheets(const struct kr_case *c, const struct kr_record *record) {
     char *front = kr_case_file(c, "front.csv"), *area = kr_case_file(c, "area.csv");
-    kr_sheet_front(record, c, front);
-    kr_sheet_area(record, area);
+    struct kr_sheet *sheet = kr_sheet_create(record);
+    if (c->boxes.count)
+        kr_warn("track.boxes are for plates: the front of a solid is found without");
+    kr_sheet_write_front(sheet, front);
+    kr_sheet_write_area(sheet, area);
     kr_free(front);
     kr_free(area);
+    return sheet;
 }
 
 static void track_run(struct kr_deck *deck, const struct kr_case *c) {
@@ -110,6 +121,7 @@ static void track_run(struct kr_deck *deck, const struct kr_case *c) {
     struct kr_record *record = kr_record_read(run);
     struct kr_fragments fragments;
     struct kr_tree *tree;
+    struct kr_sheet *sheet;
     struct kr_report report;
     if (!record->finished)
         kr_warn("%s is not finished: this is the crack after %lld steps", run,
@@ -117,8 +129,9 @@ static void track_run(struct kr_deck *deck, const struct kr_case *c) {
     read_rims(c, record);
     fragments = break_up(deck, c, record, run);
     tree = kr_tree_grow(record);
-    report = (struct kr_report){record, c->window, record->dim == 2 ? c->boxes.count : 0,
-                                record->dim == 2 ? follow_boxes(c, record) : NULL, tree, &fragments};
+    sheet = record->dim == 3 ? lay_sheets(c, record) : NULL;
+    report = (struct kr_report){record, c->window, sheet ? 0 : c->boxes.count,
+                                sheet ? NULL : follow_boxes(c, record), tree, &fragments, sheet};
     write_table(c, &report, "tips.csv", kr_report_tips);
     write_table(c, &report, "branches.csv", kr_report_branches);
     write_table(c, &report, "events.csv", kr_report_events);
@@ -126,12 +139,11 @@ static void track_run(struct kr_deck *deck, const struct kr_case *c) {
         write_table(c, &report, "damage.csv", kr_report_damage);
     if (report.n_tracks)
         write_table(c, &report, "boxes.csv", kr_report_boxes);
-    if (record->dim == 3)
-        write_sheets(c, record);
     write_table(c, &report, "summary.csv", kr_report_summary);
     kr_report_say(&report);
     kr_free(run);
     free_tracks(&report);
+    kr_sheet_free(sheet);
     kr_tree_free(tree);
     kr_fragments_clear(&fragments);
     kr_record_free(record);

@@ -91,7 +91,8 @@ static void begin_at_fork(struct kr_leg *leg) {
     struct kr_move at = path->move[0];
     if (at.s <= 0 && at.time <= leg->first_time)
         return;
-    at = (struct kr_move){leg->first_time, 0, {leg->from[0], leg->from[1]}, at.angle, NAN, NAN, NAN, 0};
+    at = (struct kr_move){
+        leg->first_time, 0, {leg->from[0], leg->from[1]}, at.angle, NAN, NAN, NAN, 0};
     path->move = kr_realloc(path->move, path->count + 1, sizeof at);
     memmove(path->move + 1, path->move, path->count++ * sizeof at);
     path->move[0] = at;
@@ -106,7 +107,8 @@ static void end_at_fork(struct kr_leg *leg) {
                            path->move[path->count - 1].s > near))
         path->count--;
     leg->end_s = near + away;
-    at = (struct kr_move){leg->last_time, leg->end_s, {leg->to[0], leg->to[1]}, at.angle, NAN, NAN, NAN, 0};
+    at = (struct kr_move){
+        leg->last_time, leg->end_s, {leg->to[0], leg->to[1]}, at.angle, NAN, NAN, NAN, 0};
     path->move = kr_realloc(path->move, path->count + 1, sizeof at);
     path->move[path->count++] = at;
 }

@@ -5,32 +5,37 @@ from matplotlib.patches import Circle
 
 from raster import raster
 from results import Fault
-from style import DAMAGE, DPI, ENERGY, WIDTH, WISH, plt
+from shape import AXES, frame, is_moved, is_solid, shape_of, shown
+from style import DAMAGE, DPI, ENERGY, SIGNED, WIDTH, WISH, plt
 
 
 def rows_of(case, columns):
-    """Rows of a picture of the whole plate that is `columns` pixels wide."""
-    lower, upper = case.box()
+    """Rows of a map that is `columns` pixels wide."""
+    lower, upper = frame(case)
     return max(2, round(columns * (upper[1] - lower[1]) / (upper[0] - lower[0])))
 
 
-def picture_of(case, columns):
-    """The cell at each sample of the whole plate, and the samples along a pixel, of which cells
-    smaller than a pixel need several. Kept for the next picture."""
-    rasters = case.rasters
-    if columns not in rasters:
-        lower, upper = case.box()
-        point, first, vertex, _, spacing = case.cells()
-        pixel = (upper[0] - lower[0]) / columns
-        fine = int(np.clip(np.ceil(1.5 * pixel / spacing), 1, 4))
-        shape = fine * rows_of(case, columns), fine * columns
-        rasters[columns] = raster(point, first, vertex, lower, upper, shape), fine
-    return rasters[columns]
+def picture_of(case, columns, step):
+    """The cell at each sample of the map, and the samples along a pixel, of which cells smaller than a
+    pixel need several. Kept for the next picture, unless the cells move."""
+    still = step is None or not is_moved(case)
+    if still and columns in case.rasters:
+        return case.rasters[columns]
+    lower, upper = frame(case)
+    point, first, vertex, owner = shape_of(case, step)
+    pixel = (upper[0] - lower[0]) / columns
+    fine = int(np.clip(np.ceil(1.5 * pixel / case.cells()[4]), 1, 4))
+    cell = raster(point, first, vertex, lower, upper, (fine * rows_of(case, columns), fine * columns))
+    found = np.where(cell >= 0, owner[cell], -1), fine
+    if still:
+        case.rasters[columns] = found
+    return found
 
 
-def paint(case, values, columns):
-    """Pixels of a field: means over their samples, masked where there is no material."""
-    cell, fine = picture_of(case, columns)
+def paint(case, values, columns, step=None):
+    """Pixels of a field: means over their samples, masked where there is no material. With a step the cells
+    are where they were then, if that is wished."""
+    cell, fine = picture_of(case, columns, step)
     there = cell >= 0
     total, count = np.where(there, values[cell], 0), there
     if fine > 1:
@@ -41,13 +46,17 @@ def paint(case, values, columns):
 
 def show(axes, case, pixels, colours, limit, least=0):
     """Put a map of the whole plate into axes in mm."""
-    lower, upper = case.box()
+    lower, upper = frame(case)
     return axes.imshow(pixels, origin="lower", extent=(lower[0], upper[0], lower[1], upper[1]),
                        cmap=colours, vmin=least, vmax=limit, interpolation="nearest",
                        aspect="auto")
 
 
-def outline_holes(axes, case, width=0.6, colour="0.35"):
+def outline_holes(axes, case, pixels, width=0.6, colour="0.35"):
+    """Circles where they lie in the picture as they are; else a line around all that is not material."""
+    if WISH["scale"] or is_solid(case):
+        outline_material(axes, case, pixels)
+        return
     for x, y, radius in case.holes:
         axes.add_patch(Circle((x, y), radius, fill=False, linewidth=width, edgecolor=colour))
 
@@ -56,7 +65,7 @@ def outline_material(axes, case, pixels):
     """A line around all that is not material, for cases of which only the folder is known."""
     outside = np.ma.getmaskarray(pixels)
     if outside.any():
-        lower, upper = case.box()
+        lower, upper = frame(case)
         axes.contour(outside.astype(float), [0.5], colors="0.35", linewidths=0.5,
                      extent=(lower[0], upper[0], lower[1], upper[1]))
 
@@ -76,12 +85,12 @@ def chosen_steps(case, count=4):
     return [(names[k], times[k]) for k in sorted(set(after))]
 
 
-def panels(case, count):
-    """Figure with `count` equal maps in two columns and a narrow axes for the colour bar.
+def panels(case, count, columns=None):
+    """Figure with `count` equal maps in columns, two unless told, and a narrow axes for the colour bar.
 
     All edges lie on whole pixels, so that a pixel of a map is a pixel of the picture.
     """
-    columns = 1 if count == 1 else 2
+    columns = columns or (1 if count == 1 else 2)
     rows = -(-count // columns)
     left, right, gap, top, bottom, between, all_wide = (
         round(DPI * inches) for inches in (0.5, 0.75, 0.3, 0.22, 0.42, 0.27, WIDTH))
@@ -100,9 +109,9 @@ def panels(case, count):
                         total[1] - top - (row + 1) * high - row * between, wide, high))
         axes[-1].tick_params(labelleft=column == 0, labelbottom=k + columns >= count)
         if column == 0:
-            axes[-1].set_ylabel("y (mm)")
+            axes[-1].set_ylabel(AXES[shown(case)[1]] + " (mm)")
         if k + columns >= count:
-            axes[-1].set_xlabel("x (mm)")
+            axes[-1].set_xlabel(AXES[shown(case)[0]] + " (mm)")
     bar = add(all_wide - right + 0.12 * DPI, bottom, 0.11 * DPI, total[1] - top - bottom)
     return figure, axes, bar, wide
 
@@ -112,19 +121,62 @@ def lengths(values):
     return values if values.ndim == 1 else np.linalg.norm(values, axis=1)
 
 
-def four_maps(case, field, colours, label, limit_of, scale=1):
-    """Maps of a field with one colour scale; returns the figure."""
-    chosen = chosen_steps(case)
-    values = [scale * lengths(case.field(step, field)) for step, _ in chosen]
-    least, limit = WISH["limits"] or (0, limit_of(values))
-    figure, axes, bar, pixels = panels(case, len(chosen))
-    for a, v, (_, time) in zip(axes, values, chosen):
-        image = show(a, case, paint(case, v, pixels), colours, limit, least)
-        outline_holes(a, case)
+# Unit of a field in pictures, and how many of the file's make one.
+UNITS = {"Damage": ("", 1), "Stored_Elastic_Energy_Density": ("kJ/m³", 1e-3), "Strain": ("", 1),
+         "Displacement": ("µm", 1e6), "Velocity": ("m/s", 1), "Stress": ("MPa", 1e-6)}
+COMPONENTS = {3: ["x", "y", "z"], 6: ["xx", "xy", "xz", "yy", "yz", "zz"]}
+
+
+class Field:
+    """A field of the outputs by its name, as `Damage`, `Velocity` (its length), `Velocity.x` or `Stress.yy`."""
+
+    def __init__(self, case, name):
+        self.name, _, self.part = name.partition(".")
+        step = case.steps()[0][-1]
+        there = list(case.run()["step"][step])
+        if self.name not in there:
+            raise Fault("unknown field `%s`; the run has %s" % (name, ", ".join(there)))
+        shape = case.run()["step"][step][self.name].shape
+        self.parts = COMPONENTS.get(shape[1], []) if len(shape) > 1 else []
+        if self.part not in [""] + self.parts or (len(self.parts) == 6 and not self.part):
+            raise Fault("`%s`: expected a component, as %s.%s; there are %s" % (
+                name, self.name, (self.parts or ["-"])[-1], ", ".join(self.parts) or "none"))
+        unit, self.factor = UNITS.get(self.name, ("SI", 1))
+        self.label = (self.name.replace("_", " ").lower() + " " + self.part).strip()
+        self.label += " (%s)" % unit if unit else ""
+        self.file = name.lower().replace(".", "-")
+
+    def values(self, case, step):
+        values = case.field(step, self.name)
+        return self.factor * (values[:, self.parts.index(self.part)] if self.part else lengths(values))
+
+    def colours(self, values):
+        """Colour map and its ends for these values of some times: the wish, or of one sign from 0 on, of two
+        signs as far to both sides."""
+        if self.name == "Damage":
+            least, most = 0, 1
+        elif self.part:
+            most = energy_limit([np.abs(v) for v in values])
+            least = -most
+        else:
+            least, most = 0, energy_limit(values)
+        least, most = WISH["limits"] or (least, most)
+        return DAMAGE if self.name == "Damage" else SIGNED if self.part else ENERGY, least, most
+
+
+def map_times(case, field, chosen, columns=None):
+    """Maps of a field at some outputs with one colour scale; returns the figure."""
+    values = [field.values(case, step) for step, _ in chosen]
+    colours, least, most = field.colours(values)
+    figure, axes, bar, pixels = panels(case, len(chosen), columns)
+    for a, v, (step, time) in zip(axes, values, chosen):
+        painted = paint(case, v, pixels, step)
+        image = show(a, case, painted, colours, most, least)
+        outline_holes(a, case, painted)
         a.set_title("t = %.4g µs" % time, pad=3)
-    over, under = limit < max(v.max() for v in values), least > min(v.min() for v in values)
+    over, under = most < max(v.max() for v in values), least > min(v.min() for v in values)
     extend = ("both" if under else "max") if over else "min" if under else "neither"
-    figure.colorbar(image, cax=bar, label=label, extend=extend)
+    figure.colorbar(image, cax=bar, label=field.label, extend=extend)
     return figure
 
 
@@ -135,37 +187,20 @@ def save(case, figure, name):
     return path
 
 
-def damage(case):
-    figure = four_maps(case, "Damage", DAMAGE, "damage", lambda values: 1)
-    return save(case, figure, "damage")
-
-
 def energy_limit(values):
     """Colour limit: 99.7 % of all cells lie below, so that a few at the tips do not dim the rest."""
     limit = max(np.percentile(v, 99.7) for v in values)
     return limit if limit > 0 else 1
 
 
-def energy(case):
-    figure = four_maps(case, "Stored_Elastic_Energy_Density", ENERGY,
-                       "strain energy density (kJ/m³)", energy_limit, 1e-3)
-    return save(case, figure, "energy")
-
-
-# Unit of a field in pictures, and how many of the file's make one.
-UNITS = {"Damage": ("", 1), "Stored_Elastic_Energy_Density": ("kJ/m³", 1e-3),
-         "Displacement": ("µm", 1e6), "Velocity": ("m/s", 1)}
-
-
-def any_field(name):
-    """A picture of any field of the outputs; of vectors the length."""
+def maps_of(name, file=None):
+    """A picture of any field at four times."""
     def picture(case):
-        names, _ = case.steps()
-        there = list(case.run()["step"][names[-1]])
-        if name not in there:
-            raise Fault("unknown field `%s`; the run has %s" % (name, ", ".join(there)))
-        unit, factor = UNITS.get(name, ("SI", 1))
-        label = name.replace("_", " ").lower() + (" (%s)" % unit if unit else "")
-        figure = four_maps(case, name, ENERGY, label, energy_limit, factor)
-        return save(case, figure, "field-" + name.lower())
+        field = Field(case, name)
+        return save(case, map_times(case, field, chosen_steps(case)), file or "field-" + field.file)
     return picture
+
+
+def strip(case):
+    """Damage at three times in a row: a page's width."""
+    return save(case, map_times(case, Field(case, "Damage"), chosen_steps(case, 3), 3), "strip")

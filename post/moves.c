@@ -6,9 +6,9 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/memory.h"
+#include "least.h"
 
 enum { LEAST_MOVES = 5 };
 
@@ -42,65 +42,22 @@ static void find_direction(const struct kr_record *record, const struct kr_path 
     move->angle = atan2(b[1] - a[1], b[0] - a[0]);
 }
 
-/** Solve the normal equations of a polynomial of `terms` <= 3 terms by Cholesky's factors; returns
- *  the slope at 0 and the square of its standard error for a unit of residual variance. 0: singular.
- */
-static int solve(int terms, double matrix[3][3], double right[3], double *slope, double *variance) {
-    double unit[3] = {0, 1, 0};
-    for (int i = 0; i < terms; i++)
-        for (int j = 0; j <= i; j++) {
-            double sum = matrix[i][j];
-            for (int k = 0; k < j; k++)
-                sum -= matrix[i][k] * matrix[j][k];
-            if (i == j && !(sum > 1e-9 * matrix[i][i]))
-                return 0;
-            matrix[i][j] = i == j ? sqrt(sum) : sum / matrix[j][j];
-        }
-    for (int i = 0; i < terms; i++) {
-        for (int k = 0; k < i; k++) {
-            right[i] -= matrix[i][k] * right[k];
-            unit[i] -= matrix[i][k] * unit[k];
-        }
-        right[i] /= matrix[i][i];
-        unit[i] /= matrix[i][i];
-    }
-    *slope = *variance = 0; /* unit . (L^-1 right) and unit . unit, both of the row of the slope */
-    for (int i = 0; i < terms; i++) {
-        *slope += unit[i] * right[i];
-        *variance += unit[i] * unit[i];
-    }
-    return 1;
-}
-
 /** Slope dT/ds at moves[at] from a fit over moves from..to-1, and its standard error; 0: none. Of the
  *  residuals those farther apart than `apart` are independent. */
 static int fit_slope(const struct kr_move *move, size_t from, size_t to, size_t at, int terms,
                      double apart, double width, double *slope, double *error) {
-    double matrix[3][3] = {{0}}, right[3] = {0}, copy[3], sum = 0, variance, rest, fitted = 0;
-    double independent;
-    size_t used = 0;
+    struct kr_least fit = {.terms = terms};
+    double x[KR_LEAST_MOST], inverse[KR_LEAST_MOST][KR_LEAST_MOST], residual, independent;
     for (size_t k = from; k < to; k++) {
-        double u = (move[k].s - move[at].s) / width, t = move[k].time - move[at].time;
-        double power[3] = {1, u, u * u};
-        if (!move[k].is_alone)
-            continue;
-        used++;
-        for (int i = 0; i < terms; i++) {
-            right[i] += power[i] * t;
-            for (int j = 0; j <= i; j++)
-                matrix[i][j] += power[i] * power[j];
-        }
-        sum += t * t;
+        double u = (move[k].s - move[at].s) / width, power[3] = {1, u, u * u};
+        if (move[k].is_alone)
+            kr_least_add(&fit, power, move[k].time - move[at].time);
     }
-    memcpy(copy, right, sizeof copy);
-    if (used < (size_t)terms + 2 || !solve(terms, matrix, copy, slope, &variance))
+    if (!kr_least_solve(&fit, x, inverse, &residual))
         return 0;
-    for (int i = 0; i < terms; i++)
-        fitted += copy[i] * copy[i];
-    independent = fmin((double)used, 1 + (move[to - 1].s - move[from].s) / apart);
-    rest = fmax(sum - fitted, 0) / fmax(independent - terms, 1);
-    *slope /= width;
-    *error = sqrt(variance * rest) / width;
+    independent = fmin(fit.count, 1 + (move[to - 1].s - move[from].s) / apart);
+    *slope = x[1] / width;
+    *error = sqrt(inverse[1][1] * residual / fmax(independent - terms, 1)) / width;
     return 1;
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The crack as a film: damage above strain energy density, through all outputs.
+"""Films through all outputs: of the crack, damage above strain energy density, and of any field.
 
 The frame with its axes and colour bars is drawn once; each output only pastes its pixels into it,
 so that the time goes into reading and encoding.
@@ -10,48 +10,49 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 from matplotlib import font_manager
 
-from maps import chosen_steps, energy_limit, paint, rows_of
+from maps import Field, chosen_steps, paint, rows_of
 from results import warn
-from style import DAMAGE, ENERGY, plt
+from shape import AXES, frame, shown
+from style import plt
 
 DPI = 160
 SECONDS = 8  # that a film lasts at most; 25 frames a second at most, 4 at least
 
 
-def background(case, limit):
-    """Pixels of the empty frame (rows, columns, 3), and where the maps go: (x, y, wide, high) in
-    pixels from the upper left."""
-    lower, upper = case.box()
+def background(case, scales):
+    """Pixels of the empty frame (rows, columns, 3), and where the maps go: (x, y, wide, high) in pixels from
+    the upper left. scales: (label, colours, least, most) of each map, from the top."""
+    lower, upper = frame(case)
     left, right, top, bottom, between, wide = (
         round(DPI * inches) for inches in (0.55, 0.85, 0.3, 0.45, 0.12, 6))
     high = rows_of(case, wide)
-    total = np.array([left + wide + right, top + 2 * high + between + bottom])
+    total = np.array([left + wide + right,
+                      top + len(scales) * high + (len(scales) - 1) * between + bottom])
     total += total % 2  # encoders want even numbers of pixels
     figure = plt.figure(figsize=total / DPI, dpi=DPI)
     places = []
-    for row, (colours, most, label) in enumerate((
-            (DAMAGE, 1, "damage"), (ENERGY, limit, "strain energy density (kJ/m³)"))):
+    for row, (label, colours, least, most) in enumerate(scales):
         y = top + row * (high + between)
         axes, bar = (figure.add_axes([x / total[0], 1 - (y + high) / total[1], w / total[0],
                                       high / total[1]])
                      for x, w in ((left, wide), (left + wide + 0.1 * DPI, 0.1 * DPI)))
-        axes.set(xlim=(lower[0], upper[0]), ylim=(lower[1], upper[1]), ylabel="y (mm)")
-        axes.tick_params(labelbottom=row == 1)
-        figure.colorbar(plt.cm.ScalarMappable(plt.Normalize(0, most), colours), cax=bar,
-                        label=label)
+        across, up = (AXES[a] + " (mm)" for a in shown(case))
+        axes.set(xlim=(lower[0], upper[0]), ylim=(lower[1], upper[1]), ylabel=up)
+        axes.tick_params(labelbottom=row == len(scales) - 1)
+        figure.colorbar(plt.cm.ScalarMappable(plt.Normalize(least, most), colours), cax=bar, label=label)
         places.append((left, y, wide, high))
-    axes.set_xlabel("x (mm)")
+    axes.set_xlabel(across)
     figure.canvas.draw()
-    frame = np.asarray(figure.canvas.buffer_rgba())[..., :3].copy()
+    pixels = np.asarray(figure.canvas.buffer_rgba())[..., :3].copy()
     plt.close(figure)
-    return frame, places
+    return pixels, places
 
 
-def colour(field, colours, limit):
+def colour(field, colours, least, most):
     """Pixels (rows, columns, 3) of a painted field; white where there is no material."""
     table = (255 * colours(np.arange(256))[:, :3]).round().astype(np.uint8)
     hole = np.ma.getmaskarray(field)
-    pixels = table[np.clip(field.data * (256 / limit), 0, 255).astype(np.uint8)]
+    pixels = table[np.clip((field.data - least) * (256 / (most - least)), 0, 255).astype(np.uint8)]
     pixels[hole] = 255
     pixels[rims(hole)] = 90
     return pixels[::-1]
@@ -75,32 +76,29 @@ def paste(frame, pixels, place):
     frame[y:y + high, [x, x + wide - 1]] = 0
 
 
-def frames(case, limit):
+def frames(case, fields, scales):
     """Yield the frames as bytes; the first item is (columns, rows)."""
-    frame, places = background(case, limit)
+    pixels, places = background(case, scales)
     font = ImageFont.truetype(font_manager.findfont("DejaVu Sans"), round(0.12 * DPI))
-    yield frame.shape[1], frame.shape[0]
+    yield pixels.shape[1], pixels.shape[0]
     for step, time in zip(*case.steps()):
-        for place, name, scale, colours, most in (
-                (places[0], "Damage", 1, DAMAGE, 1),
-                (places[1], "Stored_Elastic_Energy_Density", 1e-3, ENERGY, limit)):
-            field = paint(case, scale * case.field(step, name), place[2])
-            paste(frame, colour(field, colours, most), place)
-        image = Image.fromarray(frame)
-        ImageDraw.Draw(image).text((places[0][0], 0.09 * DPI), "t = %.1f µs" % time, (0, 0, 0),
-                                   font)
+        for place, field, (_, colours, least, most) in zip(places, fields, scales):
+            painted = paint(case, field.values(case, step), place[2], step)
+            paste(pixels, colour(painted, colours, least, most), place)
+        image = Image.fromarray(pixels)
+        ImageDraw.Draw(image).text((places[0][0], 0.09 * DPI), "t = %.1f µs" % time, (0, 0, 0), font)
         yield image.tobytes()
 
 
-def crack(case):
+def film(case, names, file):
     """Pipe the frames through ffmpeg. A film that fails is told, and no reason to fail."""
-    names, _ = case.steps()
-    limit = energy_limit([1e-3 * case.field(s, "Stored_Elastic_Energy_Density")
-                          for s, _ in chosen_steps(case)])
-    stream = frames(case, limit)
+    fields = [Field(case, name) for name in names]
+    chosen = [step for step, _ in chosen_steps(case)]
+    scales = [(field.label, *field.colours([field.values(case, step) for step in chosen])) for field in fields]
+    stream = frames(case, fields, scales)
     columns, rows = next(stream)
-    path = case.path("pictures/crack.mp4")
-    rate = min(25, max(4, len(names) / SECONDS))
+    path = case.path("pictures/%s.mp4" % file)
+    rate = min(25, max(4, len(case.steps()[0]) / SECONDS))
     command = ["ffmpeg", "-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24",
                "-s", "%dx%d" % (columns, rows), "-r", "%.3f" % rate, "-i", "-", "-an",
                "-c:v", "libx264", "-preset", "veryfast", "-crf", "18", "-pix_fmt", "yuv420p",
@@ -120,3 +118,11 @@ def crack(case):
         warn("no film: ffmpeg failed: %s" % (said[-1] if said else process.returncode))
         return None
     return path
+
+
+def crack(case):
+    return film(case, ["Damage", "Stored_Elastic_Energy_Density"], "crack")
+
+
+def film_of(name):
+    return lambda case: film(case, [name], "film-" + Field(case, name).file)

@@ -39,7 +39,8 @@ void kr_owners_find(const struct kr_front *front, const struct kr_legs *legs,
         order[front->rank[i]] = i;
         owners->branch[i] = legs->of[i] == NONE ? 0 : branch_of_leg[legs->of[i]];
     }
-    for (size_t k = 0; k < front->n; k++) /* by time, so that a speck is met first at its first node */
+    for (size_t k = 0; k < front->n;
+         k++) /* by time, so that a speck is met first at its first node */
         if (is_free(front, owners, order[k]))
             flood(front, order[k], queue, owners);
     kr_free(order);

@@ -20,6 +20,8 @@ try:
     import study
     import tree
     import compare
+    import front
+    import shape
 except ImportError as missing:
     print("kirsch-plot: %s; pictures need Debian's python3-numpy, python3-matplotlib and "
           "python3-h5py" % missing, file=sys.stderr)
@@ -27,14 +29,19 @@ except ImportError as missing:
 
 PICTURES = {
     "grid": grid.grid,
-    "damage": maps.damage,
-    "energy": maps.energy,
+    "damage": maps.maps_of("Damage", "damage"),
+    "energy": maps.maps_of("Stored_Elastic_Energy_Density", "energy"),
     "speed": curves.speed,
     "tip": curves.tip,
     "tree": tree.tree,
     "history": curves.history,
+    "front": front.front,
+    "strip": maps.strip,
     "crack": movie.crack,
 }
+# What is drawn where none is named.
+OF_PLATES = ["grid", "damage", "energy", "speed", "tip", "tree", "history", "crack"]
+OF_SOLIDS = ["grid", "damage", "energy", "front", "history", "crack"]
 
 
 def numbers(option, word, count):
@@ -53,7 +60,7 @@ def take_wishes(words):
     rest, words = [], list(words)
     while words:
         word = words.pop(0)
-        if word not in ("--format", "--dpi", "--limits") or not words:
+        if word not in ("--format", "--dpi", "--limits", "--scale") or not words:
             rest.append(word)
             continue
         value = words.pop(0)
@@ -65,6 +72,8 @@ def take_wishes(words):
             WISH["dpi"], = numbers(word, value, 1)
             if not 20 <= WISH["dpi"] <= 2400:
                 raise Fault("--dpi: found `%s`, expected 20 to 2400" % value)
+        elif word == "--scale":
+            WISH["scale"], = numbers(word, value, 1)
         else:
             WISH["limits"] = numbers(word, value, 2)
             if not WISH["limits"][0] < WISH["limits"][1]:
@@ -74,7 +83,7 @@ def take_wishes(words):
 
 def arguments(words):
     """Folder, names of pictures, holes, voids, and what of the grid is asked for."""
-    folder, names, round_ones, wanted = None, [], {"--disc": [], "--ball": []}, {}
+    folder, names, round_ones, wanted, fields = None, [], {"--disc": [], "--ball": []}, {}, []
     words = list(words)
     while words:
         word = words.pop(0)
@@ -82,21 +91,26 @@ def arguments(words):
             round_ones[word].append(tuple(float(x) for x in words.pop(0).split(",")))
         elif word in ("--hole", "--void", "--slice") and words:
             wanted["cut" if word == "--slice" else word[2:]] = words.pop(0)
+            if word == "--slice":
+                WISH["plane"] = shape.plane_of(wanted["cut"])
         elif word == "--field" and words:
-            name = words.pop(0)
-            names.append("field " + name)
-            PICTURES["field " + name] = maps.any_field(name)
+            fields.append(words.pop(0))
         elif folder is None:
             folder = word
-        elif word in PICTURES:
+        elif word in PICTURES or word == "film":
             names.append(word)
         else:
-            raise Fault("unknown picture `%s`; there are %s" % (word, ", ".join(PICTURES)))
+            raise Fault("unknown picture `%s`; there are %s" % (word, ", ".join(list(PICTURES) + ["film"])))
     if folder is None:
         raise Fault("the folder of the case is missing")
+    of = movie.film_of if "film" in names else maps.maps_of
+    names = [name for name in names if name != "film"] + fields
+    if of is movie.film_of and not fields:
+        raise Fault("film: expected the field to be filmed, as film --field Velocity")
+    PICTURES.update({name: of(name) for name in fields})
     if wanted and not names:
         names = ["grid"]
-    return folder, names or list(PICTURES), round_ones["--disc"], round_ones["--ball"], wanted
+    return folder, names, round_ones["--disc"], round_ones["--ball"], wanted
 
 
 def draw_all(case, names):
@@ -130,7 +144,7 @@ def main():
         folder, names, holes, voids, wanted = arguments(words)
         case = Case(folder, holes, voids)
         PICTURES["grid"] = lambda case: grid.grid(case, grid.Choice(case, **wanted))
-        if not draw_all(case, names):
+        if not draw_all(case, names or (OF_SOLIDS if shape.is_solid(case) else OF_PLATES)):
             sys.exit(2)
     except Fault as fault:
         print("kirsch-plot: %s" % fault, file=sys.stderr)

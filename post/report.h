@@ -6,6 +6,7 @@
 #define KR_REPORT_H
 
 #include "fragments.h"
+#include "sheet.h"
 #include "track.h"
 #include "tree.h"
 
@@ -16,6 +17,7 @@ struct kr_report {
     struct kr_track *track; /* (n_tracks) one a box of the deck */
     const struct kr_tree *tree;
     const struct kr_fragments *fragments;
+    const struct kr_sheet *sheet; /* of a solid; NULL of a plate */
 };
 
 /** Write the files; each appears whole or not at all. Stop (exit 3) where they cannot be written.

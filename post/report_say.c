@@ -56,7 +56,8 @@ static void say_tree(const struct kr_report *report) {
                total.mean_speed / rayleigh, rayleigh);
     if (isfinite(total.top_speed))
         kr_say("  top speed      %.0f +- %.0f m/s, %.2f of it, over %.2f mm of path",
-               total.top_speed, total.top_error, total.top_speed / rayleigh, 2e3 * kr_path_window(report->record));
+               total.top_speed, total.top_error, total.top_speed / rayleigh,
+               2e3 * kr_path_window(report->record));
 }
 
 /** Share of the mass that the heaviest fragment has, in percent. */
@@ -65,6 +66,19 @@ static double heaviest(const struct kr_fragments *fragments) {
     for (size_t f = 0; f < fragments->count; f++)
         mass += fragments->item[f].mass;
     return 100 * fragments->item[0].mass / mass;
+}
+
+static void say_sheet(const struct kr_report *report) {
+    const double rayleigh = report->record->rayleigh_speed;
+    double speed = kr_sheet_mean_speed(report->sheet);
+    if (!report->tree->damaged)
+        kr_say("  cracks         none: no damage past the threshold");
+    else
+        kr_say("  crack area     %.4g mm^2; over time in area.csv",
+               1e6 * kr_sheet_area(report->sheet, INFINITY));
+    if (isfinite(speed))
+        kr_say("  crack front    %.0f m/s in the mean, %.2f of Rayleigh's %.0f m/s; curves and speeds in "
+               "front.csv", speed, speed / rayleigh, rayleigh);
 }
 
 void kr_report_say(const struct kr_report *report) {
@@ -81,8 +95,8 @@ void kr_report_say(const struct kr_report *report) {
         say_track(report, box);
     if (tree->countable)
         say_tree(report);
-    else if (record->dim == 3)
-        kr_say("  crack front    through the thickness: front.csv; its area over time: area.csv");
+    else if (report->sheet)
+        say_sheet(report);
     else
         kr_say("  branches       not to be counted: %.0f %% of all nodes are damaged",
                100.0 * (double)tree->damaged / (double)record->n);

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * summary.csv. A value that does not exist (the speed of a crack that never grew) leaves its line out.
+ * summary.csv. A value that does not exist (the speed of a crack that never grew) leaves its line
+ * out.
  */
 #include <math.h>
 #include <stdio.h>
 
 #include "report.h"
-#include "table.h"
+#include "csv_write.h"
 #include "total.h"
 
 static void put(FILE *file, const char *name, double value, const char *unit) {
@@ -41,10 +42,11 @@ static void put_track(FILE *file, const struct kr_report *report, size_t box) {
 static void put_energies(FILE *file, const struct kr_record *record) {
     double work = record->external_work;
     double rest = work - record->kinetic_energy - record->strain_energy - record->fracture_work;
-    put(file, "external_work", work, "J/m");
-    put(file, "kinetic_energy", record->kinetic_energy, "J/m");
-    put(file, "strain_energy", record->strain_energy, "J/m");
-    put(file, "fracture_work", record->fracture_work, "J/m");
+    const char *unit = record->dim == 3 ? "J" : "J/m";
+    put(file, "external_work", work, unit);
+    put(file, "kinetic_energy", record->kinetic_energy, unit);
+    put(file, "strain_energy", record->strain_energy, unit);
+    put(file, "fracture_work", record->fracture_work, unit);
     put(file, "energy_balance", work != 0 ? rest / fabs(work) : 0, "1");
 }
 
@@ -68,9 +70,16 @@ static void put_tree(FILE *file, const struct kr_report *report) {
     put(file, "scattered_energy", tree->legs.scattered, "J/m");
 }
 
+static void put_sheet(FILE *file, const struct kr_report *report) {
+    double speed = kr_sheet_mean_speed(report->sheet);
+    put(file, "crack_area", kr_sheet_area(report->sheet, INFINITY), "m^2");
+    put(file, "mean_front_speed", speed, "m/s");
+    put(file, "mean_front_speed_over_rayleigh", speed / report->record->rayleigh_speed, "1");
+}
+
 void kr_report_summary(const struct kr_report *report, const char *path) {
     const struct kr_record *record = report->record;
-    struct kr_table table = kr_table_begin(path, "name,value,unit");
+    struct kr_csv_writer table = kr_csv_begin(path, "name,value,unit");
     FILE *file = table.file;
     put(file, "nodes", (double)record->n, "1");
     put(file, "bonds", (double)record->bonds, "1");
@@ -88,5 +97,7 @@ void kr_report_summary(const struct kr_report *report, const char *path) {
         put_track(file, report, box);
     if (report->tree->countable)
         put_tree(file, report);
-    kr_table_finish(&table);
+    if (report->sheet)
+        put_sheet(file, report);
+    kr_csv_finish(&table);
 }

@@ -1,144 +1,222 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Fronts and areas of cracks in solids; see sheet.h. A layer is a plate of its own to track.c.
+ * Planes, widths and areas of sheets; the equations stand in sheet.h.
  */
 #include "sheet.h"
 
 #include <math.h>
 
 #include "base/memory.h"
-#include "table.h"
-#include "track.h"
+#include "search.h"
 
-enum { MOST_LINES = 200 };
+static const double AROUND = 1.5;  /* horizons that a plane is laid through */
+static const double CUT_OFF = 0.1; /* horizons */
 
-/* Layers of equal depth across z. */
-struct layers {
-    double bottom, depth; /* m: least z of a node less half a layer; of a layer */
-    size_t count;
-    struct kr_record *plate; /* (count) the nodes of each, places in 2D */
+struct kr_sheet *kr_sheet_create(const struct kr_record *record) {
+    struct kr_sheet *sheet = KR_NEW(struct kr_sheet, 1);
+    sheet->front = kr_front_create(record);
+    sheet->patch = KR_NEW(struct kr_patch, sheet->front->n);
+    kr_sheet_lay(sheet);
+    kr_sheet_time(sheet);
+    return sheet;
+}
+
+void kr_sheet_free(struct kr_sheet *sheet) {
+    if (!sheet)
+        return;
+    kr_front_free(sheet->front);
+    kr_free(sheet->patch);
+    kr_free(sheet);
+}
+
+double kr_sheet_when(const struct kr_sheet *sheet, size_t i) {
+    return isinf(sheet->front->arrival[i]) ? sheet->front->time[i] : sheet->front->arrival[i];
+}
+
+/* ---- planes ------------------------------------------------------------------------------ */
+
+/** One of Jacobi's rotations: makes m[p][q] zero and turns the columns of v alike. */
+static void rotate(double m[3][3], double v[3][3], int p, int q) {
+    double theta, t, c, s;
+    if (fabs(m[p][q]) <= 1e-15 * (fabs(m[p][p]) + fabs(m[q][q])))
+        return;
+    theta = (m[q][q] - m[p][p]) / (2 * m[p][q]);
+    t = (theta < 0 ? -1 : 1) / (fabs(theta) + sqrt(theta * theta + 1));
+    c = 1 / sqrt(t * t + 1);
+    s = t * c;
+    for (int k = 0; k < 3; k++) {
+        double a = m[k][p], b = m[k][q];
+        m[k][p] = c * a - s * b;
+        m[k][q] = s * a + c * b;
+    }
+    for (int k = 0; k < 3; k++) {
+        double a = m[p][k], b = m[q][k];
+        m[p][k] = c * a - s * b;
+        m[q][k] = s * a + c * b;
+        a = v[k][p];
+        b = v[k][q];
+        v[k][p] = c * a - s * b;
+        v[k][q] = s * a + c * b;
+    }
+}
+
+/** The direction of least scatter. */
+static void least_direction(double moment[3][3], double normal[3]) {
+    double v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    int least = 0;
+    for (int round = 0; round < 12; round++) {
+        rotate(moment, v, 0, 1);
+        rotate(moment, v, 0, 2);
+        rotate(moment, v, 1, 2);
+    }
+    for (int k = 1; k < 3; k++)
+        least = moment[k][k] < moment[least][least] ? k : least;
+    for (int k = 0; k < 3; k++)
+        normal[k] = v[k][least];
+}
+
+static void lay_plane(const struct kr_front *front, size_t i, const int *near, size_t count,
+                      struct kr_patch *patch) {
+    const double *x = front->x + 3 * i, reach = AROUND * front->record->horizon;
+    double weight = 1, mean[3] = {0}, moment[3][3] = {{0}}, away = 0;
+    for (size_t k = 0; k < count; k++) {
+        const double *y = front->x + 3 * (size_t)near[k];
+        double d[3] = {y[0] - x[0], y[1] - x[1], y[2] - x[2]};
+        double part = 1 - (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) / (reach * reach);
+        double w = fmax(part, 0) * fmax(part, 0);
+        weight += w;
+        for (int a = 0; a < 3; a++) {
+            mean[a] += w * d[a];
+            for (int b = 0; b < 3; b++)
+                moment[a][b] += w * d[a] * d[b];
+        }
+    }
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++)
+            moment[a][b] -= mean[a] * mean[b] / weight;
+    least_direction(moment, patch->normal);
+    for (int a = 0; a < 3; a++)
+        away += patch->normal[a] * mean[a] / weight;
+    for (int a = 0; a < 3; a++)
+        patch->x[a] = x[a] + away * patch->normal[a];
+}
+
+/* ---- widths ------------------------------------------------------------------------------ */
+
+/** Sums over the disc around a patch: of damaged nodes, and of all. */
+struct disc {
+    double volume[2], mean[2][3];
 };
 
-static size_t layer_of(const struct layers *layers, double z) {
-    double k = floor((z - layers->bottom) / layers->depth);
-    return k < 0 ? 0 : k >= (double)layers->count ? layers->count - 1 : (size_t)k;
+static void add_to_disc(struct disc *disc, int which, const struct kr_patch *patch, const double *x,
+                        double volume, double horizon) {
+    double d[3] = {x[0] - patch->x[0], x[1] - patch->x[1], x[2] - patch->x[2]}, across, r, w;
+    across = d[0] * patch->normal[0] + d[1] * patch->normal[1] + d[2] * patch->normal[2];
+    r = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - across * across) / (horizon * horizon);
+    if (r >= 1 || fabs(across) >= horizon)
+        return;
+    w = (1 - r) * (1 - r) * volume * (which ? 1 - fabs(across) / horizon : 1);
+    disc->volume[which] += w;
+    for (int a = 0; a < 3; a++)
+        disc->mean[which][a] += w * (d[a] - across * patch->normal[a]);
 }
 
-static struct layers measure(const struct kr_record *record) {
-    double low = INFINITY, high = -INFINITY;
-    for (size_t i = 0; i < record->n; i++) {
-        low = fmin(low, record->position[3 * i + 2]);
-        high = fmax(high, record->position[3 * i + 2]);
+/** The width at a patch; returns whether its disc is cut off by the front. */
+static int measure_width(const struct kr_record *record, const struct disc *disc,
+                         struct kr_patch *patch) {
+    double square = 0;
+    patch->width = record->horizon * disc->volume[0] / disc->volume[1];
+    for (int a = 0; a < 3; a++) {
+        double off = disc->mean[0][a] / disc->volume[0] - disc->mean[1][a] / disc->volume[1];
+        square += off * off;
     }
-    double steps = nearbyint((high - low) / record->spacing);
-    struct layers layers = {.count = 1 + (size_t)steps};
-    layers.depth = steps > 0 ? (high - low) / steps : record->spacing;
-    layers.bottom = low - 0.5 * layers.depth;
-    layers.plate = KR_NEW(struct kr_record, layers.count);
-    return layers;
+    return square > CUT_OFF * CUT_OFF * record->horizon * record->horizon;
 }
 
-static struct layers cut(const struct kr_record *record) {
-    struct layers layers = measure(record);
-    for (size_t i = 0; i < record->n; i++)
-        layers.plate[layer_of(&layers, record->position[3 * i + 2])].n++;
-    for (size_t k = 0; k < layers.count; k++) {
-        struct kr_record *plate = &layers.plate[k];
-        size_t n = plate->n;
-        *plate = *record;
-        plate->dim = 2;
-        plate->n = 0;
-        plate->position = KR_NEW(double, 2 * n);
-        plate->damage_time = KR_NEW(double, n);
+/** The patch at its own node and what is near it in the body. */
+static struct disc look_around(const struct kr_record *record, const struct kr_patch *patch,
+                               size_t i, const int *near, size_t count) {
+    struct disc disc = {{0}};
+    for (size_t k = 0; k <= count; k++) {
+        size_t j = k < count ? (size_t)near[k] : i;
+        if (!isinf(record->damage_time[j]))
+            add_to_disc(&disc, 0, patch, record->position + 3 * j, record->volume[j],
+                        record->horizon);
+        add_to_disc(&disc, 1, patch, record->position + 3 * j, record->volume[j], record->horizon);
     }
-    for (size_t i = 0; i < record->n; i++) {
-        const double *x = record->position + 3 * i;
-        struct kr_record *plate = &layers.plate[layer_of(&layers, x[2])];
-        plate->position[2 * plate->n] = x[0];
-        plate->position[2 * plate->n + 1] = x[1];
-        plate->damage_time[plate->n++] = record->damage_time[i];
-    }
-    return layers;
+    return disc;
 }
 
-static void free_layers(struct layers *layers) {
-    for (size_t k = 0; k < layers->count; k++) {
-        kr_free(layers->plate[k].position);
-        kr_free(layers->plate[k].damage_time);
-    }
-    kr_free(layers->plate);
+/** What is near point i, in an array that grows. */
+struct finder {
+    struct kr_search *search;
+    int *near;
+    size_t room, count;
+};
+
+static void find(struct finder *finder, size_t i) {
+    finder->count = kr_search_near(finder->search, i, finder->near, finder->room);
+    if (finder->count <= finder->room)
+        return;
+    finder->room = 2 * finder->count;
+    finder->near = kr_realloc(finder->near, finder->room, sizeof *finder->near);
+    finder->count = kr_search_near(finder->search, i, finder->near, finder->room);
 }
 
-/* The last move of a tip up to a step; NULL before the first. */
-static const struct kr_tip *tip_at(const struct kr_track *track, int64_t step) {
-    const struct kr_tip *last = NULL;
-    for (size_t k = 0; k < track->count && track->tip[k].step <= step; k++)
-        last = &track->tip[k];
-    return last;
+static void forget(struct finder *finder) {
+    kr_search_free(finder->search);
+    kr_free(finder->near);
 }
 
-static void put_front(struct kr_table *table, const struct layers *layers,
-                      const struct kr_track *track, size_t box, int64_t step, int64_t window) {
-    for (size_t k = 0; k < layers->count; k++) {
-        const struct kr_record *plate = &layers->plate[k];
-        const struct kr_tip *tip = tip_at(&track[k], step);
-        if (!tip)
+/** Where the front cuts a disc off, the mean width of patches within reach that are whole. */
+static void borrow_widths(struct kr_sheet *sheet, struct finder *damaged, const char *is_cut) {
+    const struct kr_front *front = sheet->front;
+    double all = 0, whole = 0;
+    for (size_t i = 0; i < front->n; i++)
+        if (!is_cut[i]) {
+            all += sheet->patch[i].width;
+            whole++;
+        }
+    for (size_t i = 0; i < front->n; i++) {
+        double sum = 0, count = 0;
+        if (!is_cut[i])
             continue;
-        /* What does not move within the window stands still. */
-        int moves = tip->step + window > step;
-        fprintf(table->file, "%.9g,%zu,%zu", (double)step * plate->time_step, box + 1, k + 1);
-        kr_table_put(table, plate->position[2 * tip->node]);
-        kr_table_put(table, plate->position[2 * tip->node + 1]);
-        kr_table_put(table, layers->bottom + ((double)k + 0.5) * layers->depth);
-        kr_table_put(table, moves ? tip->speed : 0);
-        kr_table_put(table, (moves ? tip->speed : 0) / plate->rayleigh_speed);
-        fprintf(table->file, "\n");
+        find(damaged, i);
+        for (size_t k = 0; k < damaged->count; k++)
+            if (!is_cut[damaged->near[k]]) {
+                sum += sheet->patch[damaged->near[k]].width;
+                count++;
+            }
+        if (count > 0)
+            sheet->patch[i].width = sum / count;
+        else if (whole > 0)
+            sheet->patch[i].width = all / whole;
     }
 }
 
-static void follow_box(struct kr_table *table, const struct layers *layers,
-                       const struct kr_case_box *box, size_t number, int64_t window) {
-    struct kr_track *track = KR_NEW(struct kr_track, layers->count);
-    int64_t first = INT64_MAX, last = -1;
-    for (size_t k = 0; k < layers->count; k++) {
-        kr_track_follow(&layers->plate[k], box, window, &track[k]);
-        if (!track[k].count)
-            continue;
-        first = track[k].tip[0].step < first ? track[k].tip[0].step : first;
-        last = track[k].arrival > last ? track[k].arrival : last;
+void kr_sheet_lay(struct kr_sheet *sheet) {
+    const struct kr_front *front = sheet->front;
+    const struct kr_record *record = front->record;
+    struct finder damaged = {kr_search_create(3, front->n, front->x, AROUND * record->horizon)};
+    struct finder body = {kr_search_create(3, record->n, record->position,
+                                           sqrt(2) * record->horizon + record->spacing)};
+    char *is_cut = KR_NEW(char, front->n);
+    for (size_t i = 0; i < front->n; i++) {
+        struct kr_patch *patch = sheet->patch + i;
+        struct disc disc;
+        find(&damaged, i);
+        lay_plane(front, i, damaged.near, damaged.count, patch);
+        find(&body, front->node[i]);
+        disc = look_around(record, patch, front->node[i], body.near, body.count);
+        is_cut[i] = (char)measure_width(record, &disc, patch);
     }
-    for (int64_t step = first; last >= 0 && step < last + window; step += window)
-        put_front(table, layers, track, number, step < last ? step : last, window);
-    for (size_t k = 0; k < layers->count; k++)
-        kr_track_clear(&track[k]);
-    kr_free(track);
-}
-
-void kr_sheet_front(const struct kr_record *record, const struct kr_case *c, const char *path) {
-    const struct kr_case_box whole = {{-INFINITY, -INFINITY}, {INFINITY, INFINITY}, 0};
-    const struct kr_case_box *box = c->boxes.count ? c->boxes.item : &whole;
-    struct layers layers = cut(record);
-    struct kr_table table = kr_table_begin(
-        path, "time [s],box,layer,x [m],y [m],z [m],speed [m/s],speed_over_rayleigh");
-    for (size_t k = 0; k < (c->boxes.count ? c->boxes.count : 1); k++)
-        follow_box(&table, &layers, &box[k], k, c->window);
-    kr_table_finish(&table);
-    free_layers(&layers);
-}
-
-void kr_sheet_area(const struct kr_record *record, const char *path) {
-    struct kr_table table = kr_table_begin(path, "time [s],broken_bonds,area [m^2]");
-    double energy = 0, begin = record->first_break;
-    double every = record->broken ? (record->bond_time[record->broken - 1] - begin) / MOST_LINES : 0;
-    double due = begin;
-    for (size_t k = 0; k < record->broken; k++) {
-        energy += record->bond_energy[k];
-        int ends = k + 1 == record->broken;
-        if (!ends && (record->bond_time[k + 1] == record->bond_time[k] || record->bond_time[k] < due))
-            continue;
-        due = record->bond_time[k] + every;
-        fprintf(table.file, "%.9g,%zu,%.9g\n", record->bond_time[k], k + 1,
-                energy / record->fracture_energy);
-    }
-    kr_table_finish(&table);
+    borrow_widths(sheet, &damaged, is_cut);
+    for (size_t i = 0; i < front->n; i++)
+        if (front->time[i] >= 0)
+            sheet->patch[i].area =
+                record->volume[front->node[i]] /
+                fmax(sheet->patch[i].width, cbrt(record->volume[front->node[i]]));
+    kr_free(is_cut);
+    forget(&damaged);
+    forget(&body);
 }

@@ -6,6 +6,7 @@ import os
 import numpy as np
 
 from maps import outline_material, paint, show
+from shape import frame
 from results import Case, Fault, Nothing, warn
 from style import DAMAGE, DPI, WIDTH, WISH, open_axes, plt
 
@@ -38,7 +39,7 @@ def contact(folder, rows):
         done = done[:MOST]
     columns = min(len(done), 2 if len(done) <= 6 else 4)
     lines = -(-len(done) // columns)
-    lower, upper = Case(os.path.join(folder, done[0]), []).box()
+    lower, upper = frame(Case(os.path.join(folder, done[0]), []))
     wide = (WIDTH - 0.9 - 0.1 * columns) / columns
     high = wide * (upper[1] - lower[1]) / (upper[0] - lower[0])
     figure, grid = plt.subplots(lines, columns, squeeze=False, layout="constrained",

@@ -7,8 +7,9 @@ import matplotlib.pyplot as plt
 from matplotlib.colors import LinearSegmentedColormap
 
 DPI = 300
-# What the command line asks of all pictures; `limits` (lowest, highest) of the colours of a field.
-WISH = {"format": "png", "dpi": DPI, "limits": None}
+# What the command line asks of all pictures; `limits` (lowest, highest) of the colours of a field, `scale` of
+# displacements, `plane` (axis, level in mm) of maps of solids.
+WISH = {"format": "png", "dpi": DPI, "limits": None, "scale": 0, "plane": None}
 WIDTH = 7.0  # inches: a page's text
 
 # Okabe and Ito's colours: told apart with any kind of colour vision.
@@ -20,8 +21,10 @@ DAMAGE = LinearSegmentedColormap.from_list("damage", [
     (0, "#ffffff"), (0.12, "#fddbb0"), (0.28, "#f08a4b"), (0.42, "#c03a2b"), (0.6, "#6b0f1a"),
     (1, "#1d0408")])
 ENERGY = matplotlib.colormaps["viridis"].copy()
+SIGNED = matplotlib.colormaps["PuOr"].copy()
 DAMAGE.set_bad("white")
 ENERGY.set_bad("white")
+SIGNED.set_bad("white")
 
 plt.rcParams.update({
     "font.family": "DejaVu Sans", "font.size": 8, "axes.titlesize": 8, "axes.labelsize": 8,

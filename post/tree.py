@@ -11,15 +11,17 @@ def tree(case):
     tips = tips_by_box(case)
     names, _ = case.steps()
     figure, (axes,), bar, pixels = panels(case, 1)
-    show(axes, case, paint(case, case.field(names[-1], "Damage"), pixels), "Greys", 2)
-    outline_holes(axes, case)
+    painted = paint(case, case.field(names[-1], "Damage"), pixels)
+    show(axes, case, painted, "Greys", 2)
+    outline_holes(axes, case, painted)
     jump = 0.5e3 * case.run().attrs["horizon"]
     lines, speeds = [], []
     for _, t in tips:
         for some in pieces(t, jump):
             way = np.stack([t["x"][some], t["y"][some]], axis=1)
             lines.extend(np.stack([way[:-1], way[1:]], axis=1))
-            speeds.extend(t["speed"][some][1:])
+            speed = t["speed"][some]
+            speeds.extend(np.where(np.isnan(speed[1:]), speed[:-1], speed[1:]))
     paths = LineCollection(lines, array=np.ma.masked_invalid(speeds), cmap="viridis", linewidth=2,
                            capstyle="round")
     paths.cmap.set_bad("0.4")

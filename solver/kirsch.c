@@ -125,8 +125,7 @@ static void run_steps(const struct kr_job *job) {
     lock_folder(job);
     for (int k = 0; k < job->n_steps; k++) {
         const struct kr_step *step = &kr_steps[k];
-        if ((k == KR_STEP_PORES && !kr_case_has_pores(&job->c)) || (k <= KR_STEP_MESH && job->mesh) ||
-            (k > KR_STEP_TRACK && kr_case_dim(&job->c) == 3)) /* it draws plates */
+        if ((k == KR_STEP_PORES && !kr_case_has_pores(&job->c)) || (k <= KR_STEP_MESH && job->mesh))
             continue;
         if (!behind && kr_step_is_up_to_date(job, step)) {
             kr_say("%s is up to date", step->program);
@@ -176,8 +175,10 @@ static void print_summary(const struct kr_job *job) {
 static void print_paths(const struct kr_job *job) {
     static const char *const made[] = {
         "pictures/grid.png", "pictures/damage.png",  "pictures/energy.png",
-        "pictures/tree.png", "pictures/speed.png", "pictures/tip.png", "pictures/history.png", "pictures/crack.mp4",
+        "pictures/tree.png", "pictures/speed.png", "pictures/tip.png", "pictures/front.png",
+        "pictures/history.png", "pictures/crack.mp4",
         "tips.csv",          "branches.csv",         "events.csv",
+        "damage.csv",        "front.csv",            "area.csv",
         "fragments.csv",     "history.csv",          "summary.csv",
         "run.xdmf"};
     for (size_t k = 0; k < sizeof made / sizeof made[0]; k++) {

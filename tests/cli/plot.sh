@@ -74,6 +74,31 @@ compares_a_field() {
         grep -q 'largest difference of stored elastic energy density (kJ/m³): 0$' "$work/said" &&
         is_png compare-stored_elastic_energy_density 10000
 }
+draws_components() {
+    plot --field Stress.yy --field Velocity && is_png field-stress-yy 10000 && is_png field-velocity 10000 &&
+        told 2 '`Stress`: expected a component, as Stress.zz; there are xx, xy, xz' plot --field Stress &&
+        told 2 '`Damage.x`: expected a component' plot --field Damage.x
+}
+films_a_field() {
+    rm -f "$run/pictures/film-stress-yy.mp4"
+    [ "$(plot film --field Stress.yy)" = "$run/pictures/film-stress-yy.mp4" ] &&
+        [ "$(ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 \
+            "$run/pictures/film-stress-yy.mp4")" -eq 13 ] &&
+        told 2 'film: expected the field to be filmed' plot film
+}
+# Pulled by 0.5 % of its height and opened by 4 mm times 0.005: at a scale of 20 the map is higher by 2.9 mm.
+draws_moved_cells() {
+    plot strip && cp "$run/pictures/strip.png" "$work/still.png" && plot strip --scale 20 &&
+        /usr/bin/python3 - "$work/still.png" "$run/pictures/strip.png" <<'END'
+import sys, numpy as np
+from PIL import Image
+still, moved = (np.asarray(Image.open(f).convert("L")).astype(int) for f in sys.argv[1:])
+# a map is (7 - 0.5 - 0.75 - 2 * 0.3)/3 inches wide: so many pixels a mm, at 300 dots an inch
+pixels = (7 - 0.5 - 0.75 - 2 * 0.3) / 3 * 300 / 50
+higher = len(moved) - len(still)
+assert abs(higher - pixels * 20 * 0.005 * (25 + 4)) < 3, (higher, pixels)
+END
+}
 draws_the_tree() { plot tree && is_png tree 10000; }
 without_ffmpeg() { # a PATH on which there is none
     told 0 'warning: no film: cannot start ffmpeg' env PATH="$work" "$build/kirsch-plot" \
@@ -156,6 +181,10 @@ track >"$work/said" 2>&1
 check draws_all_pictures draws_all
 check draws_one_picture draws_one
 check draws_a_field draws_a_field
+check draws_components draws_components
+check films_a_field films_a_field
+check draws_moved_cells draws_moved_cells
+check refuses_slices_of_a_plate told 2 'a plate has no slices' plot damage --slice 'z=1 mm'
 check draws_the_tree draws_the_tree
 check draws_other_formats draws_other_formats
 check compares_a_field compares_a_field

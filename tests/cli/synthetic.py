@@ -135,6 +135,16 @@ def energy_at(position, time, end):
     return result * (1 - damage_at(position, time, 2 * MM))
 
 
+def motion_at(position, time, end):
+    """Displacements: pulled by 0.5 % in y in the end, and opened along the crack's line; velocities and
+    stresses that belong to nothing but have their shapes."""
+    u = np.zeros((len(position), 3))
+    up = position[:, 1] - HOLE[1]
+    u[:, 1] = 0.005 * time / end * (up + 2 * MM * np.sign(up))
+    stress = np.stack([up * 1e8, up * 0, up * 0, up * 2e8 + 1e5, up * 0, up * 0], axis=1)
+    return {"Displacement": u, "Velocity": u / end, "Stress": stress}
+
+
 def write_nodes(path, point, first, vertex, area, position, h):
     with h5py.File(path, "w") as f:
         f.attrs.update(format="kirsch nodes", version=1, dim=2, spacing=h, program="synthetic",
@@ -180,6 +190,8 @@ def write_run(path, area, position, h, steps, end):
                                  **pack)
             group.create_dataset("Stored_Elastic_Energy_Density",
                                  data=energy_at(position, time, end).astype("f4"), **pack)
+            for name, values in motion_at(position, time, end).items():
+                group.create_dataset(name, data=values.astype("f4"), **pack)
 
 
 def write_history(path, end):

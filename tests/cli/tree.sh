@@ -148,7 +148,48 @@ one_snapshot() {
     stops 0 'branches' track
 }
 
+# A block with a crack through it: its front through the thickness, its area, and pictures of both.
+solid_has_fronts() {
+    mkdir -p "$work/solid"
+    cat >"$work/solid/case.yaml" <<END
+geometry: {width: 20 mm, height: 10 mm, depth: 2 mm}
+mesh: {grid: uniform, spacing: 0.5 mm}
+nodes: {horizon: 1.5 mm}
+material: {model: solid, youngs_modulus: 3.24 GPa, density: 1190 kg/m3, fracture_energy: 200 J/m2}
+cracks: {precracks: [{polygon: [[0 mm, 5 mm, -1 mm], [4.1 mm, 5 mm, -1 mm], [4.1 mm, 5 mm, 3 mm], [0 mm, 5 mm, 3 mm]]}]}
+loads:
+  - {set: top, traction: [free, 3 MPa, free]}
+  - {set: bottom, traction: [free, -3 MPa, free]}
+solver: {end_time: 60 us}
+output: {every: 30 us, folder: $work/solid}
+END
+    for program in mesh nodes solve track; do
+        "$build/kirsch-$program" "$work/solid/case.yaml" || return
+    done
+    [ ! -e "$work/solid/damage.csv" ] && "$build/kirsch-track" --help | grep -q 'front.csv' &&
+        grep -qF 'time [s],curve,x [m],y [m],z [m],speed [m/s],speed_error [m/s],speed_over_rayleigh,along_x,along_y,along_z' "$work/solid/front.csv" &&
+        /usr/bin/python3 - "$work/solid" <<'END'
+import csv, sys
+def table(name):
+    return [{k: float(v or "nan") for k, v in r.items()} for r in csv.DictReader(open(sys.argv[1] + "/" + name))]
+front, area = table("front.csv"), table("area.csv")
+assert len(front) > 20 and len(area) > 20
+run = max(r["x [m]"] for r in front)
+assert all(abs(r["y [m]"] - 5e-3) < 1e-3 for r in front if r["x [m]"] < 10e-3) # straight on
+assert all(a["area [m^2]"] <= b["area [m^2]"] for a, b in zip(area, area[1:]))
+last = area[-1]
+print("# figure solid: front at %.1f mm, area %.1f mm^2, by energy %.1f mm^2"
+      % (1e3 * run, 1e6 * last["area [m^2]"], 1e6 * last["energy_area [m^2]"]))
+# the sheet from the notch to the front, 2 mm thick, a horizon more or less at either end
+assert abs(last["area [m^2]"] - 2e-3 * (run - 4.1e-3)) < 2e-3 * 1.5e-3 * 2
+END
+    [ $? -eq 0 ] && "$build/kirsch-plot" "$work/solid/case.yaml" front damage &&
+        "$build/kirsch-plot" "$work/solid/case.yaml" --slice 'y=4.9 mm' --field Velocity.y &&
+        for picture in front damage field-velocity-y; do [ -s "$work/solid/pictures/$picture.png" ] || return; done
+}
+
 check runs_a_plate runs
+check of_a_solid_has_fronts solid_has_fronts
 check shares_the_energy energy_is_shared
 check gives_every_node_one_owner every_node_has_one_owner up
 check paths_begin_at_forks paths_begin_at_forks

@@ -95,7 +95,8 @@ static void check_branch(const struct kr_tree *tree, struct drawn_kind kind,
 static struct kr_record *held_record;
 static struct kr_tree *held_tree;
 
-static struct kr_record *plate(struct drawn_kind kind, double hole_x, double hole_y, double radius) {
+static struct kr_record *plate(struct drawn_kind kind, double hole_x, double hole_y,
+                               double radius) {
     assert_null(held_record);
     return held_record = drawn_plate(kind, hole_x, hole_y, radius);
 }
@@ -114,8 +115,8 @@ static struct kr_tree *grow(struct kr_record *r, struct drawn_kind kind) {
     return held_tree = kr_tree_grow(r);
 }
 
-/** Every damaged node but the pre-crack's is of one branch or of one speck that the tree has, and specks
- *  have as many nodes as they say. */
+/** Every damaged node but the pre-crack's is of one branch or of one speck that the tree has, and
+ * specks have as many nodes as they say. */
 static void check_owners(const struct kr_tree *tree) {
     const struct kr_owners *owners = &tree->owners;
     size_t of_specks = 0, counted = 0;
