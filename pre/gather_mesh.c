@@ -190,12 +190,21 @@ static void lay_groups(struct kr_gather *gather, struct kr_mesh *mesh, const str
         }
 }
 
+static int has_inner_points(const struct kr_pile *pile) {
+    for (size_t k = 0; k < pile->count; k++)
+        if (kr_element(pile->type[k])->kept < kr_element(pile->type[k])->nodes)
+            return 1;
+    return 0;
+}
+
 /** Take out points that are no vertex of anything but stood inside an element of the file, such as
  *  the ninth node of a quadrilateral: they have done their duty. */
 static void drop_inner_points(const struct kr_gather *gather, struct kr_mesh *mesh) {
     const struct kr_pile *pile = &gather->pile[mesh->dim];
-    unsigned char *is_inner = KR_NEW(unsigned char, mesh->n_points);
     size_t inner = 0;
+    if (!has_inner_points(pile))
+        return;
+    unsigned char *is_inner = KR_NEW(unsigned char, mesh->n_points);
     for (size_t k = 0; k < pile->count; k++) {
         const struct kr_element *kind = kr_element(pile->type[k]);
         for (size_t v = 0; v < kind->nodes; v++)
