@@ -8,7 +8,7 @@
 #   make sanitize   small cases under valgrind, and the leak and thread sanitizers (WITH=)
 #   make allocations  each allocation of each program fails in turn (some 15 minutes)
 #   make bench      measure the speed; writes build/bench.csv
-#   make bench-growth  the speed by nodes, m and threads, and what mixed precision changes
+#   make bench-growth  the speed by nodes, m and threads; what mixed precision changes; large meshes
 #   make deps       list what the system lacks and install it (Debian; sudo where not root)
 #   make corrections  write docs/corrections.md anew: all partial volumes with all surface corrections
 #   make sbom       list what is linked, as SPDX (build/kirsch.spdx)
@@ -230,6 +230,7 @@ bench: deps
 bench-growth: all
 	@$(BUILD)/kirsch-bench --growth
 	@BUILD=$(BUILD) cases/bench/precision
+	@BUILD=$(BUILD) cases/bench/sizes
 
 oracle: all
 	@if pkg-config --exists petsc; then \

@@ -93,7 +93,7 @@ static void take_region(struct kr_solid_builder *builder, const struct kr_solid_
 static void note_region(struct kr_plate_region *note, const struct kr_solid_region *r) {
     *note = (struct kr_plate_region){.name = kr_text_copy(r->name), .n_cells = r->n_cells,
                                      .n_triangles = r->n_cells, .seconds = r->seconds,
-                                     .method = r->method ? r->method : "the lattice's own tetrahedra"};
+                                     .method = r->method};
 }
 
 struct kr_mesh *kr_boxes_solid_mesh(const struct kr_block *block, const struct kr_block_body *body,

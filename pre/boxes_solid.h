@@ -9,8 +9,8 @@
 
 #include "block_body.h"
 
-/** Mesh a solid. Stops (exit 2) where the padding is below two spacings. A region that gmsh cannot fill
- *  keeps the tetrahedra of the lattice of doubled spacing, with a warning. */
+/** Mesh a solid. Stops where the padding is below two spacings (exit 2), and where gmsh cannot fill a
+ *  region (exit 5). */
 struct kr_mesh *kr_boxes_solid_mesh(const struct kr_block *block, const struct kr_block_body *body,
                                     struct kr_block_report *report);
 

@@ -49,7 +49,7 @@ void kr_coarse_corners(const struct kr_coarse *coarse, size_t cell, size_t tetra
 /** Move corners onto the surface. */
 void kr_coarse_warp(struct kr_coarse *coarse);
 
-/** A region: its shells, and its own tetrahedra for where gmsh fails.
+/** A region: its shells, and the lattice's tetrahedra within.
  *
  *  out  group  (triangles) boundary that each belongs to, -1 on the perimeter; owned by the caller
  */

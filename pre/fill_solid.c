@@ -275,13 +275,15 @@ static void finish_one(struct work *work) {
         r->method = methods[done.method].name;
         return;
     }
-    int is_last = done.method + 1 == METHODS;
-    kr_warn("region %s: %s failed: %s; %s%s", r->name, methods[done.method].name, trouble,
-            is_last ? "it keeps the tetrahedra of the lattice of doubled spacing" : "trying ",
-            is_last ? "" : methods[done.method + 1].name);
+    if (done.method + 1 == METHODS)
+        kr_stop(KR_EXIT_LIBRARY,
+                "gmsh cannot fill the region %s by any of %d methods; the last, %s, failed: %s. "
+                "Another spacing or padding may help, or the voronoi grid",
+                r->name, METHODS, methods[done.method].name, trouble);
+    kr_warn("region %s: %s failed: %s; trying %s", r->name, methods[done.method].name, trouble,
+            methods[done.method + 1].name);
     kr_free(trouble);
-    if (!is_last)
-        start(work, done.region, done.method + 1);
+    start(work, done.region, done.method + 1);
 }
 
 void kr_solid_fill(size_t n_regions, struct kr_solid_region *region,

@@ -22,18 +22,17 @@ struct kr_solid_region {
     size_t n_triangles;
     size_t (*triangle)[3];
     const char *name;
-    /* got, or what was there before */
+    /* got; before, the lattice's tetrahedra that the shells were taken from */
     size_t n_points;
     double (*point)[3]; /* spacings */
     size_t n_cells;
     size_t (*cell)[4];
-    const char *method; /* words for the report; NULL: no attempt passed the checks */
+    const char *method; /* words for the report */
     double seconds;
 };
 
 /** Fill regions, several at once; the result of each depends on its own request only. Where an
- *  attempt fails, a warning says why and the next method is tried; where all have failed, the region
- *  keeps `cell` and `point` as they were: its own tetrahedra are sound, if coarser. */
+ *  attempt fails, a warning says why and the next method is tried; stops where all have failed. */
 void kr_solid_fill(size_t n_regions, struct kr_solid_region *region,
                    const struct kr_gmsh_options *options);
 

@@ -39,7 +39,7 @@ struct kr_gmsh_region {
 struct kr_gmsh_options {
     const char *helper; /* path of kirsch-gmsh; NULL: beside this program */
     int children;       /* at once; 0: as many as there are processors */
-    unsigned seconds;   /* longest time of one attempt; 0: 300 */
+    unsigned seconds;   /* longest processor time of one attempt; 0: 300 */
     size_t first;       /* method to begin with, of kr_fill_methods; behind the last comes the first */
 };
 

@@ -333,8 +333,11 @@ int kr_case_is_name(const char *text);
  *  be the struct that the deck was read into. */
 void kr_case_complete_geometry(struct kr_deck *deck, struct kr_case *c);
 
-/** The part of it that looks at outline, holes and pores. */
+/** The part of it that looks at outline and holes. */
 void kr_case_check_geometry(struct kr_deck *deck, const struct kr_case *c);
+
+/** Check what the deck asks of random pores. */
+void kr_case_check_pores(struct kr_deck *deck, const struct kr_case *c);
 
 /** The part of it that looks at stages and the end of the run. */
 void kr_case_check_stages(struct kr_deck *deck, const struct kr_case *c);

@@ -197,6 +197,7 @@ void kr_case_check(struct kr_deck *deck, const struct kr_case *c) {
     const struct kr_case_box *boxes = c->boxes.item;
     check_mesh(deck, c);
     kr_case_check_geometry(deck, c);
+    kr_case_check_pores(deck, c);
     kr_case_check_solid(deck, c);
     check_sets_and_loads(deck, c);
     kr_case_check_cracks(deck, c);

@@ -17,7 +17,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_STEPS = 40, MOST_PRODUCTS = 600, MOST_HALVINGS = 12 };
+enum { MOST_PRODUCTS = 600, MOST_HALVINGS = 12 };
 
 /* Of the stiffness's diagonal: keeps nodes that hang on too few bonds to be held (25). The softest
  * wave of a body of 1000 horizons is 100 times stiffer. */
@@ -27,7 +27,7 @@ enum { SOLUTION, REST, PRECONDITIONED, DIRECTION, PRODUCT, VECTORS };
 
 struct kr_equilibrium *kr_equilibrium_create(struct kr_body *body) {
     struct kr_equilibrium *q = KR_NEW(struct kr_equilibrium, 1);
-    *q = (struct kr_equilibrium){.body = body, .tolerance = 1e-6};
+    *q = (struct kr_equilibrium){.body = body, .tolerance = 1e-6, .most_steps = 40};
     q->rest = kr_rest_create(body);
     for (int d = 0; d < body->dim; d++) {
         q->move[d] = kr_bonds_padded(body->n);
@@ -207,7 +207,7 @@ static int go(struct kr_equilibrium *q, int moves) {
 static enum kr_equilibrium_end iterate(struct kr_equilibrium *q, struct kr_multigrid *coarse,
                                        struct kr_progress *progress) {
     int moves = largest_of(q->body, q->move) > 0;
-    for (q->steps = 0; q->steps < MOST_STEPS; q->steps++) {
+    for (q->steps = 0; q->steps < q->most_steps; q->steps++) {
         if (!moves && q->rest->residual <= q->tolerance)
             return KR_EQUILIBRIUM_FOUND;
         /* Nearly linear: the first step lands at about the strain; after it the tolerance is near. */

@@ -16,6 +16,7 @@ struct kr_equilibrium {
     int (*stop)(void *);  /* asked between two products whether to give up; NULL: never */
     void *stop_with;
     int quiet; /* no lines of progress */
+    int most_steps; /* of Newton; 40 */
 
     /* how it went */
     enum kr_equilibrium_end {

@@ -1,28 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * kirsch: runs the steps of a case that are out of date, each a program of its own.
- *
- * A step is up to date if its outputs are there and its stamp (in the folder .steps of the case) is
- * the hash of what it depends on: the deck's sections that it reads, its input files by size and
- * time, and the version of Kirsch. Files edited by hand are thus inputs of the steps behind them.
+ * kirsch: runs the steps of a case that are out of date, each a program of its own. See step.h.
  */
+#include "base/child.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "base/provenance.h"
-#include "case.h"
-#include "base/child.h"
 #include "doctor.h"
+#include "step.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <inttypes.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/file.h>
 #include <sys/prctl.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -35,169 +28,9 @@ static const char usage[] =
     "  --force            run all steps\n"
     "  --until STEP       stop behind it: pores, mesh, nodes, solve, track or plot";
 
-struct step {
-    const char *program;
-    const char *sections;   /* of the deck, that it reads */
-    const char *inputs[4];  /* in the case's folder */
-    const char *outputs[4];
-};
-
-static const struct step steps[] = {
-    {"kirsch-pores", "geometry", {NULL}, {"pores.txt"}},
-    {"kirsch-mesh", "geometry mesh nodes", {"pores.txt"}, {"plate.msh"}},
-    {"kirsch-nodes", "nodes material loads stages no_fail", {"plate.msh"}, {"plate.nodes.h5"}},
-    {"kirsch-solve",
-     "title nodes material cracks initial loads no_fail stages solver output",
-     {"plate.nodes.h5"},
-     {"run.h5", "run/crack.h5", "history.csv"}},
-    {"kirsch-track",
-     "track",
-     {"plate.nodes.h5", "run.h5", "run/crack.h5"},
-     {"tips.csv", "branches.csv", "summary.csv"}},
-    {"kirsch-plot",
-     "title geometry",
-     {"run.h5", "run/crack.h5", "tips.csv", "pores.txt"},
-     {"pictures/damage.png"}},
-};
-enum { PORES, MESH, NODES, SOLVE, TRACK, STEPS = sizeof steps / sizeof steps[0] };
-
-/* What the steps work on. */
-struct job {
-    struct kr_case_arguments arguments;
-    struct kr_case c;
-    struct kr_deck *deck;
-    char *mesh; /* path of a mesh from elsewhere, or NULL */
-    int force;
-    int n_steps; /* to be run, from the first */
-};
-
-/* ---- stamps ---- */
-
-static uint64_t hash_text(uint64_t hash, const char *text) {
-    return kr_hash(hash, text, strlen(text) + 1);
-}
-
-/* Size and time of a file; a missing one is as good an answer. */
-static uint64_t hash_path(uint64_t hash, const char *path) {
-    struct stat state;
-    int64_t what[3] = {-1, 0, 0};
-    if (stat(path, &state) == 0) {
-        what[0] = state.st_size;
-        what[1] = state.st_mtim.tv_sec;
-        what[2] = state.st_mtim.tv_nsec;
-    }
-    return kr_hash(hash, what, sizeof what);
-}
-
-static uint64_t hash_file(uint64_t hash, const struct kr_case *c, const char *name) {
-    char *path = kr_case_file(c, name);
-    hash = hash_path(hash, path);
-    kr_free(path);
-    return hash;
-}
-
-/* Files of pre-cracks. */
-static uint64_t hash_cracks(uint64_t hash, const struct job *job) {
-    const struct kr_case_crack *crack = job->c.cracks.item;
-    for (size_t k = 0; k < job->c.cracks.count; k++) {
-        if (!crack[k].file)
-            continue;
-        char *path = kr_deck_beside(job->deck, crack[k].file);
-        hash = hash_path(hash, path);
-        kr_free(path);
-    }
-    return hash;
-}
-
-static uint64_t hash_tables(uint64_t hash, const struct job *job, const struct kr_deck_list *list) {
-    const struct kr_case_load *load = list->item;
-    for (size_t k = 0; k < list->count; k++) {
-        if (!load[k].table_file || !*load[k].table_file)
-            continue;
-        char *path = kr_deck_beside(job->deck, load[k].table_file);
-        hash = hash_path(hash, path);
-        kr_free(path);
-    }
-    return hash;
-}
-
-/* Files that the loads of the deck and its stages name. */
-static uint64_t hash_loads(uint64_t hash, const struct job *job) {
-    const struct kr_case_stage *stage = job->c.stages.item;
-    hash = hash_tables(hash, job, &job->c.loads);
-    for (size_t k = 0; k < job->c.stages.count; k++)
-        hash = hash_tables(hash, job, &stage[k].loads);
-    return hash;
-}
-
-/* Files that the deck's geometry names. */
-static uint64_t hash_geometry(uint64_t hash, const struct kr_case *c) {
-    const struct kr_case_outline *part = c->outline.parts.item;
-    if (c->pores.file && *c->pores.file)
-        hash = hash_path(hash, c->pores.file);
-    if (c->outline.file && *c->outline.file)
-        hash = hash_path(hash, c->outline.file);
-    for (size_t k = 0; k < c->outline.parts.count; k++)
-        if (part[k].file && *part[k].file)
-            hash = hash_path(hash, part[k].file);
-    return hash;
-}
-
-static uint64_t stamp_of(const struct job *job, const struct step *step) {
-    char *sections = kr_deck_resolved(job->deck, step->sections);
-    uint64_t hash = hash_text(hash_text(KR_HASH_BEGIN, kr_version()), sections);
-    if (job->mesh && step == &steps[NODES])
-        hash = hash_path(hash, job->mesh);
-    if (step == &steps[SOLVE])
-        hash = hash_loads(hash_cracks(hash, job), job);
-    for (int k = 0; k < 4 && step->inputs[k]; k++)
-        hash = hash_file(hash, &job->c, step->inputs[k]);
-    if (step == &steps[PORES] || step == &steps[MESH])
-        hash = hash_geometry(hash, &job->c);
-    kr_free(sections);
-    return hash;
-}
-
-static char *stamp_path(const struct job *job, const struct step *step, const char *suffix) {
-    char *name = kr_text(".steps/%s%s", step->program, suffix);
-    char *path = kr_case_file(&job->c, name);
-    kr_free(name);
-    return path;
-}
-
-/* The stamp that was left; 0 if there is none. */
-static uint64_t read_stamp(const struct job *job, const struct step *step, const char *suffix) {
-    uint64_t stamp = 0;
-    char *path = stamp_path(job, step, suffix);
-    FILE *file = fopen(path, "r");
-    if (file && fscanf(file, "%" SCNx64, &stamp) != 1)
-        stamp = 0;
-    if (file)
-        fclose(file);
-    kr_free(path);
-    return stamp;
-}
-
-static int is_up_to_date(const struct job *job, const struct step *step) {
-    int there = read_stamp(job, step, "") == stamp_of(job, step);
-    for (int k = 0; k < 4 && step->outputs[k] && there; k++) {
-        char *output = kr_case_file(&job->c, step->outputs[k]);
-        there = access(output, R_OK) == 0;
-        kr_free(output);
-    }
-    return there;
-}
-
-static void write_stamp(const struct job *job, const struct step *step, const char *suffix) {
-    char *path = stamp_path(job, step, suffix);
-    struct kr_file file = kr_file_begin(path);
-    fprintf(file.to, "%016" PRIx64 "\n", stamp_of(job, step));
-    kr_file_end(&file);
-}
-
 /* One kirsch at a time works in a folder. The lock is handed down to the steps, so that it is held
    until the last of them has ended, also where this program was killed before. */
-static void lock_folder(const struct job *job) {
+static void lock_folder(const struct kr_job *job) {
     char *folder = kr_case_file(&job->c, ".steps"), *path = kr_case_file(&job->c, ".steps/lock");
     kr_folder_make_within(folder);
     int lock = open(path, O_RDWR | O_CREAT | O_NOFOLLOW, 0666);
@@ -215,7 +48,7 @@ static void lock_folder(const struct job *job) {
 /* ---- steps ---- */
 
 /* The program with the options that this one was given. */
-static const char **command_of(const struct job *job, const char *program) {
+static const char **command_of(const struct kr_job *job, const char *program) {
     const struct kr_case_arguments *a = &job->arguments;
     const char **word = KR_NEW(const char *, 10 + 2 * a->n_set);
     size_t n = 0;
@@ -243,24 +76,24 @@ static void append(const char **command, const char *word) {
 }
 
 /* Whether the step was begun with just these inputs and left a checkpoint. */
-static int can_resume(const struct job *job, const struct step *step) {
+static int can_resume(const struct kr_job *job, const struct kr_step *step) {
     char *path = kr_case_file(&job->c, "checkpoint.h5");
     int can = !job->force && !strcmp(step->program, "kirsch-solve") && access(path, R_OK) == 0 &&
-              read_stamp(job, step, ".begun") == stamp_of(job, step);
+              kr_step_was_begun(job, step);
     kr_free(path);
     return can;
 }
 
 /* Run one step and wait; what goes wrong has been said by the step itself. */
-static void run_step(const struct job *job, const struct step *step) {
+static void run_step(const struct kr_job *job, const struct kr_step *step) {
     char *program = kr_child_beside(step->program);
     const char **command = command_of(job, program);
     int status;
     if (can_resume(job, step))
         append(command, "--resume");
-    if (job->mesh && step == &steps[NODES])
+    if (job->mesh && step == &kr_steps[KR_STEP_NODES])
         append(command, job->mesh);
-    write_stamp(job, step, ".begun");
+    kr_step_note_begun(job, step);
     kr_say("%s", step->program);
     signal(SIGINT, SIG_IGN); /* Ctrl-C is the step's business: it may want to leave a checkpoint */
     pid_t parent = getpid(), child = fork();
@@ -287,19 +120,19 @@ static void run_step(const struct job *job, const struct step *step) {
     kr_free(program);
 }
 
-static void run_steps(const struct job *job) {
+static void run_steps(const struct kr_job *job) {
     int behind = job->force;
     lock_folder(job);
     for (int k = 0; k < job->n_steps; k++) {
-        const struct step *step = &steps[k];
-        if ((k == PORES && !kr_case_has_pores(&job->c)) || (k <= MESH && job->mesh))
+        const struct kr_step *step = &kr_steps[k];
+        if ((k == KR_STEP_PORES && !kr_case_has_pores(&job->c)) || (k <= KR_STEP_MESH && job->mesh))
             continue;
-        if (!behind && is_up_to_date(job, step)) {
+        if (!behind && kr_step_is_up_to_date(job, step)) {
             kr_say("%s is up to date", step->program);
             continue;
         }
         run_step(job, step);
-        write_stamp(job, step, "");
+        kr_step_note_done(job, step);
     }
 }
 
@@ -317,7 +150,7 @@ static double summary_value(const char *path, const char *name) {
     return result;
 }
 
-static void print_summary(const struct job *job) {
+static void print_summary(const struct kr_job *job) {
     char *path = kr_case_file(&job->c, "summary.csv");
 #define VALUE(name) summary_value(path, name)
     kr_say("\n%s", job->c.title ? job->c.title : job->arguments.deck);
@@ -339,7 +172,7 @@ static void print_summary(const struct job *job) {
     kr_free(path);
 }
 
-static void print_paths(const struct job *job) {
+static void print_paths(const struct kr_job *job) {
     static const char *const made[] = {
         "pictures/grid.png", "pictures/damage.png",  "pictures/energy.png",
         "pictures/tree.png", "pictures/speed.png", "pictures/tip.png", "pictures/front.png",
@@ -360,16 +193,16 @@ static void print_paths(const struct job *job) {
 
 /* Number of the step behind which to stop. */
 static int steps_until(const char *name) {
-    for (int k = 0; k < STEPS; k++)
-        if (!strcmp(steps[k].program + strlen("kirsch-"), name))
+    for (int k = 0; k < KR_STEPS; k++)
+        if (!strcmp(kr_steps[k].program + strlen("kirsch-"), name))
             return k + 1;
     kr_stop(KR_EXIT_INPUT,
             "--until: found '%s', expected pores, mesh, nodes, solve, track or plot", name);
 }
 
-static void take_own_arguments(struct job *job) {
+static void take_own_arguments(struct kr_job *job) {
     const struct kr_case_arguments *a = &job->arguments;
-    job->n_steps = STEPS;
+    job->n_steps = KR_STEPS;
     for (size_t k = 0; k < a->n_left; k++)
         if (!strcmp(a->left[k], "--force"))
             job->force = 1;
@@ -380,7 +213,7 @@ static void take_own_arguments(struct job *job) {
 }
 
 /* kirsch-solve knows what follows from the deck, once there are nodes. */
-static void explain(const struct job *job) {
+static void explain(const struct kr_job *job) {
     char *nodes = kr_case_file(&job->c, "plate.nodes.h5");
     double cells = job->c.width * job->c.height / (job->c.spacing * job->c.spacing);
     char *deck_text = kr_deck_resolved(job->deck, NULL);
@@ -400,7 +233,7 @@ static void explain(const struct job *job) {
 }
 
 int main(int argc, char **argv) {
-    struct job job = {0};
+    struct kr_job job = {0};
     kr_error_program("kirsch");
     if (argc == 2 && !strcmp(argv[1], "doctor"))
         return kr_doctor();
@@ -417,7 +250,7 @@ int main(int argc, char **argv) {
         explain(&job);
     } else {
         run_steps(&job);
-        if (job.n_steps > TRACK && kr_case_dim(&job.c) == 2)
+        if (job.n_steps > KR_STEP_TRACK && kr_case_dim(&job.c) == 2)
             print_summary(&job);
         print_paths(&job);
     }

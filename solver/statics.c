@@ -6,23 +6,22 @@
  *               while bonds are past s0:  break all of them, find equilibrium again
  *
  * The body goes from one equilibrium to the next without motion; what a crack sets free on the way is
- * lost, and stands in the balance of the ledger. Where Newton finds no equilibrium near by (a snap), the
- * body is let go in motion that is damped, and Newton ends what that began.
+ * lost, and stands in the balance of the ledger.
  */
 #include "run.h"
 
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "equilibrium.h"
 #include "held.h"
 #include "interrupt.h"
 #include "records.h"
+#include "settle.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { MOST_RELAXING = 20000, MOST_ROUNDS = 1000000 };
+enum { MOST_ROUNDS = 1000000 };
 
 /* Of the greatest pull so far: forces are measured by no less, or a body that is unloaded again would
  * never come to rest for rounding. */
@@ -50,30 +49,6 @@ static int is_interrupted(void *unused) {
 static void copy(const struct kr_body *body, double *const from[3], double *const to[3]) {
     for (int d = 0; d < body->dim; d++)
         memcpy(to[d], from[d], body->n * sizeof(double));
-}
-
-/* Damped motion, supports at rest, until it is nearly over. */
-static void relax(struct statics *s) {
-    struct kr_body *body = s->run->body;
-    const double dt = KR_REST_STEP * s->run->safe_step;
-    struct kr_progress progress = kr_progress_begin("relaxation", 0, 0);
-    for (int d = 0; d < body->dim; d++)
-        memset(body->v[d], 0, body->n * sizeof(double));
-    for (int k = 0; k < MOST_RELAXING; k++) {
-        double residual = kr_equilibrium_residual(s->q);
-        if (residual < 0.01 || kr_interrupt_pending())
-            break;
-        kr_rest_damp(s->q->rest);
-        for (int d = 0; d < body->dim; d++)
-            for (size_t i = 0; i < body->n; i++)
-                if (s->q->rest->fixed[i] >> d & 1)
-                    body->force[d][i] = 0;
-        kr_body_advance(body, k ? dt : 0.5 * dt, dt);
-        kr_progress_note(&progress, "  relaxation, step %d, residual %.1e", k, residual);
-    }
-    kr_progress_wipe(&progress);
-    for (int d = 0; d < body->dim; d++)
-        memset(body->v[d], 0, body->n * sizeof(double));
 }
 
 /* Work of supports and loads from the last equilibrium to this one, by the trapezoidal rule. */
@@ -118,17 +93,12 @@ static void find(struct statics *s, long step, double from, double t) {
         memset(q->move[d], 0, q->body->n * sizeof(double));
     if (s->r->at.round == 0)
         kr_boundary_way(s->boundary, q->body, from, t, q->move);
-    for (int tries = 0; tries < 2; tries++) {
-        if (kr_equilibrium_find(q) == KR_EQUILIBRIUM_FOUND)
-            break;
-        if (q->end != KR_EQUILIBRIUM_STOPPED && tries == 0)
-            relax(s);
+    if (kr_settle(q, s->run->safe_step) != KR_EQUILIBRIUM_FOUND) {
         if (kr_interrupt_pending() == KR_INTERRUPT_STOP) {
             copy(q->body, s->before, q->body->u);
             kr_records_save(s->r, step);
         }
-        if (tries == 1)
-            give_up(s, t);
+        give_up(s, t);
     }
     s->work = kr_body_sum(q->body->n, work_of_node, s);
 }

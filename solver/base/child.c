@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Children by fork and execve. The time limit is alarm(), which survives execve: the kernel keeps
- * it, even if the child hangs in a loop of its own.
+ * Children by fork and execve. The time limit is one of processor time (RLIMIT_CPU), so that a child on a
+ * busy machine is not taken for one that hangs; and of twenty times as much by the clock (alarm), for one that
+ * waits for ever. Both survive execve: the kernel keeps them, even if the child hangs in a loop of its own.
  *
  * gmsh orders some of its work by the addresses of its objects. So that a region is filled the same
  * way every time, a child starts with an empty environment (no MALLOC_... or LD_PRELOAD) and
@@ -21,12 +22,16 @@
 #include <sys/mman.h>
 #include <sys/personality.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
 /** The exit status by which a child that could not become the program says so. */
 enum { NOT_STARTED = 127 };
+
+/** By the clock a child may take so many times its limit of processor time. */
+enum { BUSY = 20 };
 
 static FILE *file_in_memory(void) {
     int descriptor = memfd_create("kirsch", MFD_CLOEXEC);
@@ -53,10 +58,14 @@ _Noreturn static void become(char *const *word, char *const *environment, const 
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, NULL);
     signal(SIGALRM, SIG_DFL);
+    signal(SIGXCPU, SIG_DFL);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent)
         _exit(NOT_STARTED); /* the parent ended before it could be watched */
-    alarm(seconds);
+    if (seconds) {
+        setrlimit(RLIMIT_CPU, &(struct rlimit){seconds, RLIM_INFINITY});
+        alarm(BUSY * seconds);
+    }
     for (int k = 0; k < 3; k++)
         if (dup2(file[k], k) < 0)
             _exit(NOT_STARTED);
@@ -108,8 +117,10 @@ pid_t kr_child_wait(int *status) {
 }
 
 char *kr_child_trouble(int status, unsigned seconds) {
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
+        return kr_text("it was not done after %u s of work", seconds);
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
-        return kr_text("it was not done after %u s", seconds);
+        return kr_text("it was not done after %u s", BUSY * seconds);
     if (WIFSIGNALED(status))
         return kr_text("it crashed (%s)", strsignal(WTERMSIG(status)));
     if (WIFEXITED(status) && WEXITSTATUS(status) == NOT_STARTED)

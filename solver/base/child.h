@@ -19,8 +19,8 @@ struct kr_child {
  *  memory for them. */
 void kr_child_prepare(struct kr_child *child);
 
-/** Start `program` on what was written, with no environment but LD_LIBRARY_PATH. After `seconds`
- * the system ends it by SIGALRM; it also ends with its parent. Stops (exit 5) where no process can
+/** Start `program` on what was written, with no environment but LD_LIBRARY_PATH. After `seconds` of
+ * processor time, or twenty times as many by the clock, the system ends it; it also ends with its parent. Stops (exit 5) where no process can
  * be made. */
 void kr_child_start(struct kr_child *child, const char *program, unsigned seconds);
 
