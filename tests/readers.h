@@ -12,13 +12,11 @@
 #include "cad.h"
 #include "case.h"
 #include "fill.h"
+#include "folder.h"
 #include "import.h"
 #include "mesh.h"
 
 #include <stdio.h>
-
-/** Where readers may put what they convert on the way. */
-static char folder[] = "/tmp/kirsch-garbled-XXXXXX";
 
 static void import_of(const char *path, int repair) {
     struct kr_mesh *mesh;

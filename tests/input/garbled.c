@@ -19,19 +19,6 @@ struct text {
     char *byte;
 };
 
-static int make_folder(void **unused) {
-    (void)unused;
-    return !mkdtemp(folder);
-}
-
-static int remove_folder(void **unused) {
-    char *command = kr_text("rm -rf %s", folder);
-    (void)unused;
-    int failed = system(command);
-    kr_free(command);
-    return failed;
-}
-
 static struct text read_corpus(const char *name) {
     char *path = kr_text("tests/corpus/%s", name);
     FILE *file = fopen(path, "rb");

@@ -3,6 +3,7 @@
  * A torus from an STL file, ASCII and binary, as body and as void, against its volume; and files that
  * are no closed surface.
  */
+#include "folder.h"
 #include "solids3d.h"
 
 #include <stdint.h>
@@ -12,8 +13,6 @@
 
 enum { AROUND = 120, ACROSS = 60, TRIANGLES = 2 * AROUND * ACROSS };
 static const double LARGE = 1.4, SMALL = 0.6; /* mm */
-
-static char folder[] = "/tmp/kirsch-stl-XXXXXX";
 
 static void corner(size_t i, size_t j, double p[3]) {
     double u = 2 * M_PI * (double)(i % AROUND) / AROUND, v = 2 * M_PI * (double)(j % ACROSS) / ACROSS;
@@ -208,24 +207,11 @@ static void surfaces_that_do_not_fit(void **unused) {
             "must lie between 0 and 5 mm");
 }
 
-static int begin(void **unused) {
-    (void)unused;
-    return !mkdtemp(folder);
-}
-
-static int end(void **unused) {
-    (void)unused;
-    char *command = kr_text("rm -rf %s", folder);
-    int code = system(command);
-    kr_free(command);
-    return code;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_torus),
         cmocka_unit_test(broken_files),
         cmocka_unit_test(surfaces_that_do_not_fit),
     };
-    return cmocka_run_group_tests(tests, begin, end);
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

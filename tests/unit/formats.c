@@ -6,12 +6,12 @@
  */
 #include "test.h"
 
+#include "folder.h"
+
 #include "convert.h"
 #include "mesh.h"
 
 #include <sys/stat.h>
-
-static char folder[] = "/tmp/kirsch-formats-XXXXXX";
 
 /* Squares beside triangles; groups of one and of both; group numbers with gaps; a set of a point. */
 static const char plane[] =
@@ -32,19 +32,6 @@ static const char solid[] =
     "c[]=Extrude{0,0,1}{Surface{b[1]};};\n"
     "Physical Volume(\"hex\",100)={v[1]}; Physical Volume(\"all\",6)={v[1],w[1],c[1]};\n"
     "Physical Surface(\"floor\",1)={s[1],t[1],b[1]}; Physical Point(\"p\",2)={1};\n";
-
-static int make_folder(void **unused) {
-    (void)unused;
-    return !mkdtemp(folder);
-}
-
-static int remove_folder(void **unused) {
-    char *command = kr_text("rm -rf %s", folder);
-    (void)unused;
-    int failed = system(command);
-    kr_free(command);
-    return failed;
-}
 
 /** Write the script and mesh it by gmsh's own program; the path is owned by the caller. */
 static char *mesh_by_gmsh(const char *script, int dim, int version, int order, int binary) {

@@ -5,26 +5,13 @@
  */
 #include "test.h"
 
+#include "folder.h"
+
 #include "fill.h"
 #include "gmsh.h"
 
 #include <sys/stat.h>
 #include <time.h>
-
-static char folder[] = "/tmp/kirsch-gmsh-XXXXXX";
-
-static int make_folder(void **unused) {
-    (void)unused;
-    return !mkdtemp(folder);
-}
-
-static int remove_folder(void **unused) {
-    char *command = kr_text("rm -rf %s", folder);
-    (void)unused;
-    int failed = system(command);
-    kr_free(command);
-    return failed;
-}
 
 /** A region of 2 by 1 squares of the lattice. */
 static struct kr_gmsh_region region_of_two(void) {

@@ -5,26 +5,13 @@
  */
 #include "test.h"
 
+#include "folder.h"
+
 #include "base/error.h"
 #include "fill_solid.h"
 
 #include <sys/stat.h>
 #include <time.h>
-
-static char folder[] = "/tmp/kirsch-solid-XXXXXX";
-
-static int make_folder(void **unused) {
-    (void)unused;
-    return !mkdtemp(folder);
-}
-
-static int remove_folder(void **unused) {
-    char *command = kr_text("rm -rf %s", folder);
-    (void)unused;
-    int failed = system(command);
-    kr_free(command);
-    return failed;
-}
 
 /** A double pyramid of five points, as three tetrahedra around its axis: six triangles. */
 static struct kr_solid_region pyramid(void) {

@@ -5,6 +5,8 @@
  */
 #include "test.h"
 
+#include "folder.h"
+
 #include "builder.h"
 #include "frame.h"
 #include "lattice.h"
@@ -13,21 +15,6 @@
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-
-static char folder[] = "/tmp/kirsch-msh-XXXXXX";
-
-static int make_folder(void **unused) {
-    (void)unused;
-    return !mkdtemp(folder);
-}
-
-static int remove_folder(void **unused) {
-    char *command = kr_text("rm -rf %s", folder);
-    (void)unused;
-    int failed = system(command);
-    kr_free(command);
-    return failed;
-}
 
 static char *path_of(const char *name) {
     return kr_text("%s/%s", folder, name);
