@@ -77,7 +77,8 @@ INLINE struct displacements load_u(const struct kr_kernel_work *work, int d, str
     return (struct displacements){load_floats(work->rounded->high[d], node, apart),
                                   load_floats(work->rounded->low[d], node, apart)};
 #else
-    return (struct displacements){.high = load(work->u[d], node, apart)};
+    (void)apart;
+    return (struct displacements){.high = load(work->u[d], node)};
 #endif
 }
 
@@ -93,7 +94,8 @@ INLINE vector load_factor(const struct kr_kernel_work *work, struct place node, 
 #ifdef KR_FLOAT
     return load_floats(work->rounded->factor, node, apart);
 #else
-    return load(work->bonds->factor, node, apart);
+    (void)apart;
+    return load(work->bonds->factor, node);
 #endif
 }
 
@@ -303,7 +305,8 @@ INLINE vector load_volume(const struct kr_kernel_work *work, struct place j, int
 #ifdef KR_FLOAT
     return load_floats(work->rounded->volume, j, apart);
 #else
-    return load(work->bonds->volume, j, apart);
+    (void)apart;
+    return load(work->bonds->volume, j);
 #endif
 }
 

@@ -117,16 +117,11 @@ INLINE vector load_floats(const float *array, struct place p, int apart) {
 #endif
 }
 
-/* Doubles, rounded where the loop is of floats. */
-INLINE vector load(const double *array, struct place p, int apart) {
-#ifdef KR_FLOAT
-    return join(round_half(load_doubles(array + p.at)),
-                round_half(load_doubles(array + upper_of(p, apart))));
-#else
-    (void)apart;
+#ifndef KR_FLOAT
+INLINE vector load(const double *array, struct place p) {
     return *(const vector_anywhere *)(array + p.at);
-#endif
 }
+#endif
 
 /* Differences of doubles, rounded where the loop is of floats. */
 INLINE vector load_difference(const double *array, struct place to, struct place from, int apart) {
@@ -135,7 +130,8 @@ INLINE vector load_difference(const double *array, struct place to, struct place
                 round_half(load_doubles(array + upper_of(to, apart)) -
                            load_doubles(array + upper_of(from, apart))));
 #else
-    return load(array, to, apart) - load(array, from, apart);
+    (void)apart;
+    return load(array, to) - load(array, from);
 #endif
 }
 
