@@ -1,43 +1,43 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bring cases/README.md up to date: a line a case and size with verdicts, time and memory, from
-build/validation/*.csv. Lines of what was not run here stay as they are."""
-import csv
+"""Write the table of cases/README.md: all cases with verdicts, time and memory, from the tables of their READMEs."""
 import glob
 import os
+import re
 
-BUILD = os.environ.get("BUILD") or "build"
 BEGIN, END = "<!-- measured -->\n", "<!-- end -->\n"
+HEAD = "| case | size | agree | differ | what differs | wall time [s] | memory [MB] |\n|" + 7 * "---|" + "\n"
 
 
-def line_of(path):
-    """Case and size, and their line of the table."""
-    with open(path, newline="") as file:
-        rows = list(csv.DictReader(file))
-    by_name = {row["quantity"]: row["value"] for row in rows}
-    differs = [row["quantity"] for row in rows if row["verdict"] == "differs"]
-    name, agrees = rows[0]["case"], sum(row["verdict"] == "agrees" for row in rows)
-    line = (f"| [{name}]({name}/README.md) | {rows[0]['size']} | {agrees} | {len(differs)} | "
-            f"{'; '.join(differs)} | {by_name.get('wall time of all runs [s]', '')} | "
-            f"{by_name.get('most memory of a program [MB]', '')} |")
-    return key_of(line), line
+def rows_of(text):
+    """Quantity, value and verdict of each row of the first table in a text."""
+    lines = text.strip().split("\n\n")[0].splitlines()[2:]  # below its head
+    cells = [[cell.strip() for cell in line.strip("|").split(" | ")] for line in lines]
+    return [(cell[0], cell[1], cell[4]) for cell in cells]
 
 
-def key_of(line):
-    """Case and size of a line of the table."""
-    return tuple(line.split(" | ")[:2])
+def line_of(name, size, rows):
+    """One line of the table."""
+    values = {quantity: value for quantity, value, _ in rows}
+    differs = [quantity for quantity, _, verdict in rows if verdict == "differs"]
+    agrees = sum(verdict == "agrees" for _, _, verdict in rows)
+    return (f"| [{name}]({name}/README.md) | {size} | {agrees} | {len(differs)} | {'; '.join(differs)} | "
+            f"{values.get('wall time of all runs [s]', '')} | {values.get('most memory of a program [MB]', '')} |\n")
 
 
 def main():
     """Replace the table between the marks."""
+    table = HEAD
+    for path in sorted(glob.glob("cases/*/README.md")):
+        with open(path) as file:
+            measured = re.findall(r"<!-- measured: (small|full) -->\n(.*?)<!-- end: \1 -->", file.read(), re.S)
+        for size, text in measured:
+            if text.strip():
+                table += line_of(os.path.basename(os.path.dirname(path)), size, rows_of(text))
     with open("cases/README.md") as file:
         before, rest = file.read().split(BEGIN)
-    old, after = rest.split(END)
-    head, lines = old.splitlines()[:2], {key_of(line): line for line in old.splitlines()[2:]}
-    lines.update(map(line_of, glob.glob(os.path.join(BUILD, "validation", "*.csv"))))
-    table = "\n".join(head + [lines[key] for key in sorted(lines)]) + "\n"
     with open("cases/README.md.new", "w") as file:
-        file.write(before + BEGIN + table + END + after)
+        file.write(before + BEGIN + table + END + rest.split(END)[1])
     os.replace("cases/README.md.new", "cases/README.md")
     print("wrote cases/README.md")
 
