@@ -67,7 +67,7 @@ static void rehearse(struct kr_run *run) {
     kr_crack_free(crack);
 }
 
-void kr_run_explain( struct kr_run *run) {
+void kr_run_explain(struct kr_run *run) {
     const struct kr_material *m = &run->bonds->material;
     struct kr_wave wave =
         kr_wave_speeds(m->youngs_modulus, m->poissons_ratio, m->density, (enum kr_model)m->model);

@@ -55,28 +55,28 @@ static uint64_t hash_file(uint64_t hash, const struct kr_case *c, const char *na
     return hash;
 }
 
+/* A file as the deck names it, if it does. */
+static uint64_t hash_named(uint64_t hash, const struct kr_job *job, const char *name) {
+    if (!name || !*name)
+        return hash;
+    char *path = kr_deck_beside(job->deck, name);
+    hash = hash_path(hash, path);
+    kr_free(path);
+    return hash;
+}
+
 /* Files of pre-cracks. */
 static uint64_t hash_cracks(uint64_t hash, const struct kr_job *job) {
     const struct kr_case_crack *crack = job->c.cracks.item;
-    for (size_t k = 0; k < job->c.cracks.count; k++) {
-        if (!crack[k].file)
-            continue;
-        char *path = kr_deck_beside(job->deck, crack[k].file);
-        hash = hash_path(hash, path);
-        kr_free(path);
-    }
+    for (size_t k = 0; k < job->c.cracks.count; k++)
+        hash = hash_named(hash, job, crack[k].file);
     return hash;
 }
 
 static uint64_t hash_tables(uint64_t hash, const struct kr_job *job, const struct kr_deck_list *list) {
     const struct kr_case_load *load = list->item;
-    for (size_t k = 0; k < list->count; k++) {
-        if (!load[k].table_file || !*load[k].table_file)
-            continue;
-        char *path = kr_deck_beside(job->deck, load[k].table_file);
-        hash = hash_path(hash, path);
-        kr_free(path);
-    }
+    for (size_t k = 0; k < list->count; k++)
+        hash = hash_named(hash, job, load[k].table_file);
     return hash;
 }
 
@@ -90,8 +90,10 @@ static uint64_t hash_loads(uint64_t hash, const struct kr_job *job) {
 }
 
 /* Files that the deck's geometry names. */
-static uint64_t hash_geometry(uint64_t hash, const struct kr_case *c) {
+static uint64_t hash_geometry(uint64_t hash, const struct kr_job *job) {
+    const struct kr_case *c = &job->c;
     const struct kr_case_outline *part = c->outline.parts.item;
+    const struct kr_case_void *hollow = c->voids.item;
     if (c->pores.file && *c->pores.file)
         hash = hash_path(hash, c->pores.file);
     if (c->outline.file && *c->outline.file)
@@ -99,7 +101,9 @@ static uint64_t hash_geometry(uint64_t hash, const struct kr_case *c) {
     for (size_t k = 0; k < c->outline.parts.count; k++)
         if (part[k].file && *part[k].file)
             hash = hash_path(hash, part[k].file);
-    return hash;
+    for (size_t k = 0; k < c->voids.count; k++)
+        hash = hash_named(hash, job, hollow[k].file);
+    return hash_named(hash, job, c->body.file);
 }
 
 static uint64_t stamp_of(const struct kr_job *job, const struct kr_step *step) {
@@ -112,7 +116,7 @@ static uint64_t stamp_of(const struct kr_job *job, const struct kr_step *step) {
     for (int k = 0; k < 4 && step->inputs[k]; k++)
         hash = hash_file(hash, &job->c, step->inputs[k]);
     if (step == &kr_steps[KR_STEP_PORES] || step == &kr_steps[KR_STEP_MESH])
-        hash = hash_geometry(hash, &job->c);
+        hash = hash_geometry(hash, job);
     kr_free(sections);
     return hash;
 }

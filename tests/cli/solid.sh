@@ -127,9 +127,45 @@ beside() {
     grep -q "the pre-crack crosses no bond" "$work/off.log"
 }
 
+# A tetrahedron's faces [mm], its foot at z = 3 mm and its top at this height.
+tetrahedron() { # height
+    awk -v top="$1" 'BEGIN {
+        split("3 3 3|7 3 3|5 7 3|5 4 " top, p, "|")
+        split("1 3 2|1 2 4|2 3 4|3 1 4", face, "|")
+        print "solid pore"
+        for (k = 1; k <= 4; k++) {
+            split(face[k], c, " ")
+            print "facet normal 0 0 0\nouter loop"
+            for (m = 1; m <= 3; m++) print "vertex", p[c[m]]
+            print "endloop\nendfacet"
+        }
+        print "endsolid pore"
+    }'
+}
+
+# A file of triangles that has changed makes the mesh out of date, one that has not does not.
+edited() { # key that names the file
+    into=$work/edited
+    rm -rf "$into" && mkdir "$into" && cat >"$into/case.yaml" <<END || return
+geometry: {width: 10 mm, height: 10 mm, depth: 10 mm, $1}
+mesh: {grid: uniform, spacing: 0.5 mm}
+nodes: {horizon: 1.5 mm}
+material: {model: solid, youngs_modulus: 3.24 GPa, density: 1190 kg/m3, fracture_energy: 200 J/m2}
+solver: {end_time: 1 us}
+END
+    tetrahedron 7 >"$into/pore.stl"
+    "$build/kirsch" --until mesh --output "$into" "$into/case.yaml" && cp "$into/plate.msh" "$into/first.msh" &&
+        "$build/kirsch" --until mesh --output "$into" "$into/case.yaml" | grep -q "kirsch-mesh is up to date" &&
+        tetrahedron 5 >"$into/pore.stl" || return
+    "$build/kirsch" --until mesh --output "$into" "$into/case.yaml" || return
+    ! cmp "$into/first.msh" "$into/plate.msh"
+}
+
 check one_and_two_threads_are_equal threads
 check after_a_stop_is_equal stopped
 check crack_of_triangles_is_that_of_a_polygon triangles
 check mesh_and_model_must_agree models
 check crack_beside_the_body_is_told beside
+check void_that_is_edited_is_meshed_again edited 'voids: [{shape: stl, file: pore.stl, unit: 1 mm}]'
+check body_that_is_edited_is_meshed_again edited 'body: {file: pore.stl, unit: 1 mm}'
 echo "1..$count"
