@@ -19,7 +19,7 @@
 #include <unistd.h>
 
 static const char FORMAT[] = "kirsch checkpoint";
-enum { VERSION = 4 };
+enum { VERSION = 5 };
 
 /* The arrays of doubles, one after the other, and their names. */
 struct array {
@@ -28,14 +28,17 @@ struct array {
     size_t n;
 };
 
-enum { ARRAYS = 8 };
+enum { ARRAYS = 11 };
 
 static size_t arrays_of(const struct kr_checkpoint *at, struct array array[ARRAYS]) {
-    static const char *const u[] = {"/u_x", "/u_y", "/u_z"}, *const v[] = {"/v_x", "/v_y", "/v_z"};
+    static const char *const u[] = {"/u_x", "/u_y", "/u_z"}, *const v[] = {"/v_x", "/v_y", "/v_z"},
+                             *const rest[] = {"/rest_x", "/rest_y", "/rest_z"};
     size_t n = 0;
     for (int d = 0; d < at->body->dim; d++) {
         array[n++] = (struct array){u[d], at->body->u[d], at->body->n};
         array[n++] = (struct array){v[d], at->body->v[d], at->body->n};
+        if (at->rest[d])
+            array[n++] = (struct array){rest[d], at->rest[d], at->body->n};
     }
     array[n++] = (struct array){"/lost_volume", at->body->bonds->lost_volume, at->body->n};
     array[n++] = (struct array){"/damage_time", at->crack->damage_time, at->body->n};
@@ -88,6 +91,7 @@ static void write_all(struct kr_h5 *file, const struct kr_checkpoint *at) {
     kr_h5_set_int64(file, "/", "steps_before", at->before);
     kr_h5_set_double(file, "/", "stage_began", at->began);
     kr_h5_set_double(file, "/", "stage_clock", at->clock);
+    kr_h5_set_double(file, "/", "rest_clock", at->rest_clock);
     kr_h5_set_double(file, "/", "balance", at->ledger->balance);
     kr_h5_set_double(file, "/", "time_step", at->dt);
     kr_h5_set_double(file, "/", "external_work", at->ledger->external);
@@ -204,6 +208,7 @@ static void read_all(const struct kr_h5 *file, struct kr_checkpoint *at) {
     at->round = (long)kr_h5_get_int64(file, "/", "round");
     at->began = kr_h5_get_double(file, "/", "stage_began");
     at->clock = kr_h5_get_double(file, "/", "stage_clock");
+    at->rest_clock = kr_h5_get_double(file, "/", "rest_clock");
     at->ledger->balance = kr_h5_get_double(file, "/", "balance");
     at->ledger->external = kr_h5_get_double(file, "/", "external_work");
     at->ledger->most_external = kr_h5_get_double(file, "/", "most_external_work");

@@ -19,6 +19,8 @@ struct kr_checkpoint {
     long before;           /* steps of the stages before */
     double began;          /* s: time of the run when the stage began */
     double clock;          /* s: of the stage; static */
+    double rest_clock, *rest[3]; /* s, m: clock and displacements of the equilibrium before the last; static;
+                                    NULL in a run without static stages */
     double most_pull;      /* N/m, in 3D N: greatest that held the body in static stages */
     long round;            /* of breaking within the load step; static */
     int event;             /* an output is due for what broke in this load step */

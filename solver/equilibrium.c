@@ -6,7 +6,7 @@
  *
  * with A p one pass over the bonds each (kr_body_product), and multigrid.h as the preconditioner. A body
  * of small strains is nearly linear, so two or three steps do. Prescribed components move in the first step,
- * and the others with them: never is a row of bonds stretched by a whole load step.
+ * and the others with them, or have done so by a good guess: never is a row of bonds stretched by a whole load step.
  */
 #include "equilibrium.h"
 
@@ -18,6 +18,9 @@
 #include <string.h>
 
 enum { MOST_PRODUCTS = 600, MOST_HALVINGS = 12 };
+
+/* To which the first step, that moves supports, is solved: it lands at about the strain anyway. */
+static const double FIRST = 1e-3;
 
 /* Of the stiffness's diagonal: keeps nodes that hang on too few bonds to be held (25). The softest
  * wave of a body of 1000 horizons is 100 times stiffer. */
@@ -204,32 +207,65 @@ static int go(struct kr_equilibrium *q, int moves) {
     return 0;
 }
 
-static enum kr_equilibrium_end iterate(struct kr_equilibrium *q, struct kr_multigrid *coarse,
+static void forget_moves(struct kr_equilibrium *q) {
+    for (int d = 0; d < q->body->dim; d++)
+        memset(q->move[d], 0, q->body->n * sizeof(double));
+}
+
+static int moves_supports(const struct kr_equilibrium *q) {
+    for (int d = 0; d < q->body->dim; d++)
+        for (size_t i = 0; i < q->body->n; i++)
+            if (q->rest->fixed[i] >> d & 1 && q->move[d][i] != 0)
+                return 1;
+    return 0;
+}
+
+/* Go where `move` leads, unless that is farther from equilibrium than the first step would end. */
+static int take_guess(struct kr_equilibrium *q) {
+    struct kr_body *body = q->body;
+    for (int d = 0; d < body->dim; d++)
+        memcpy(q->room[SOLUTION][d], body->u[d], body->n * sizeof(double));
+    add(body, body->u, 1, q->move);
+    if (kr_equilibrium_residual(q) <= FIRST) {
+        forget_moves(q);
+        return 1;
+    }
+    for (int d = 0; d < body->dim; d++)
+        memcpy(body->u[d], q->room[SOLUTION][d], body->n * sizeof(double));
+    return 0;
+}
+
+static enum kr_equilibrium_end iterate(struct kr_equilibrium *q, struct kr_multigrid *coarse, int moves,
                                        struct kr_progress *progress) {
-    int moves = largest_of(q->body, q->move) > 0;
     for (q->steps = 0; q->steps < q->most_steps; q->steps++) {
         if (!moves && q->rest->residual <= q->tolerance)
             return KR_EQUILIBRIUM_FOUND;
-        /* Nearly linear: the first step lands at about the strain; after it the tolerance is near. */
-        double enough = moves ? 1e-3 : fmin(1e-2, fmax(1e-4, 0.3 * q->tolerance / q->rest->residual));
+        double enough = moves ? FIRST : fmin(1e-2, fmax(1e-4, 0.3 * q->tolerance / q->rest->residual));
         begin(q, coarse);
         if (!solve(q, coarse, enough, progress))
             return KR_EQUILIBRIUM_STOPPED;
         if (!go(q, moves))
             return KR_EQUILIBRIUM_SNAP;
-        for (int d = 0; d < q->body->dim && moves; d++)
-            memset(q->move[d], 0, q->body->n * sizeof(double));
+        if (moves)
+            forget_moves(q);
         moves = 0;
     }
     return q->rest->residual <= q->tolerance ? KR_EQUILIBRIUM_FOUND : KR_EQUILIBRIUM_SLOW;
 }
 
 enum kr_equilibrium_end kr_equilibrium_find(struct kr_equilibrium *q) {
+    int moves = 0;
+    q->steps = q->products = 0;
+    q->end = KR_EQUILIBRIUM_FOUND;
+    if (largest_of(q->body, q->move) == 0 || !take_guess(q)) {
+        moves = moves_supports(q);
+        kr_equilibrium_residual(q);
+    }
+    if (!moves && q->rest->residual <= q->tolerance)
+        return q->end;
     struct kr_progress progress = kr_progress_begin("equilibrium", 0, 0);
-    q->products = 0;
-    kr_equilibrium_residual(q);
     struct kr_multigrid *coarse = kr_multigrid_create(q->body, q->rest->fixed);
-    q->end = iterate(q, coarse, &progress);
+    q->end = iterate(q, coarse, moves, &progress);
     kr_multigrid_free(coarse);
     kr_progress_wipe(&progress);
     return q->end;

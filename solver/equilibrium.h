@@ -11,7 +11,7 @@
 struct kr_equilibrium {
     struct kr_body *body;
     struct kr_rest *rest; /* what is prescribed, the loads, and the residual */
-    double *move[3];      /* m: on prescribed components, how far they still have to go */
+    double *move[3];      /* m: how far prescribed components still have to go; of the others a guess, or 0 */
     double tolerance;     /* of rest->residual */
     int (*stop)(void *);  /* asked between two products whether to give up; NULL: never */
     void *stop_with;
@@ -35,8 +35,9 @@ struct kr_equilibrium *kr_equilibrium_create(struct kr_body *body);
 void kr_equilibrium_free(struct kr_equilibrium *equilibrium);
 
 /** Move the prescribed components by `move`, and the others to where the forces balance, starting
- *  from body->u; body->force is that at the end, loads included. No bond breaks. Bonds that died
- *  are seen; loose nodes stay where they are. Same bits for any number of threads. */
+ *  from body->u, or from where `move` leads if that is nearer; body->force is that at the end, loads
+ *  included, and `move` is 0. No bond breaks. Bonds that died are seen; loose nodes stay where they are.
+ *  Same bits for any number of threads. */
 enum kr_equilibrium_end kr_equilibrium_find(struct kr_equilibrium *equilibrium);
 
 /** body->force = that at body->u with the loads; returns the residual. */

@@ -33,7 +33,7 @@ static int at_once(void *nothing) {
 
 /* What statics.c holds, up to the first product with the stiffness, when all of the ladder of grids is there. */
 static void rehearse_static(struct kr_run *run, size_t stage) {
-    enum { VECTORS = 3 }; /* of struct statics */
+    enum { VECTORS = 4 }; /* of struct statics, and in the records the equilibrium before */
     struct kr_equilibrium *q = kr_equilibrium_create(run->body);
     double *room[VECTORS][3];
     for (int k = 0; k < VECTORS; k++)
@@ -43,6 +43,7 @@ static void rehearse_static(struct kr_run *run, size_t stage) {
     q->quiet = 1;
     q->stop = at_once;
     kr_rest_loads(q->rest, run->boundary[stage], run->stage[stage].end);
+    kr_boundary_way(run->boundary[stage], run->body, 0, run->stage[stage].end, q->move);
     kr_equilibrium_find(q);
     for (int k = 0; k < VECTORS; k++)
         for (int d = 0; d < run->body->dim; d++)

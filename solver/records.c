@@ -36,6 +36,13 @@ static void check_place(const struct kr_run *run, const struct kr_checkpoint *at
             run->c->folder, at->step, at->stage + 1);
 }
 
+static int has_static_stage(const struct kr_run *run) {
+    for (size_t k = 0; k < run->n_stages; k++)
+        if (run->stage[k].kind == KR_STAGE_STATIC)
+            return 1;
+    return 0;
+}
+
 void kr_records_open(struct kr_records *r, struct kr_run *run, const char *deck_text, int resume) {
     const struct kr_case *c = run->c;
     char *path = kr_case_file(c, "history.csv");
@@ -51,6 +58,8 @@ void kr_records_open(struct kr_records *r, struct kr_run *run, const char *deck_
                                    .body = run->body,
                                    .ledger = r->ledger,
                                    .crack = r->crack};
+    for (int d = 0; d < run->body->dim && has_static_stage(run); d++)
+        r->at.rest[d] = kr_bonds_padded(run->body->n);
     if (resume) {
         kr_checkpoint_read(c, &r->at);
         check_place(run, &r->at);
@@ -78,6 +87,8 @@ void kr_records_open(struct kr_records *r, struct kr_run *run, const char *deck_
 void kr_records_close(struct kr_records *r) {
     if (r->sites)
         kr_sites_free(r->sites);
+    for (int d = 0; d < 3; d++)
+        kr_bonds_padded_free(r->at.rest[d]);
     kr_output_free(r->output);
     kr_history_close(r->history);
     kr_crack_free(r->crack);
@@ -134,4 +145,5 @@ void kr_records_next_stage(struct kr_records *r, long steps, double t) {
     r->at.step = 0;
     r->at.before += steps;
     r->at.began += t;
+    r->at.rest_clock = 0;
 }

@@ -33,7 +33,7 @@ struct statics {
     const struct kr_stage *stage;
     struct kr_boundary *boundary;
     struct kr_equilibrium *q;
-    double *before[3], *pull[3], *load[3]; /* u, force and loads at the last equilibrium */
+    double *before[3], *pull[3], *load[3]; /* u, force and loads where the search for equilibrium began */
     double work;                           /* J/m, since then */
     int apart;
     int resumed; /* in the middle of a load step */
@@ -51,7 +51,7 @@ static void copy(const struct kr_body *body, double *const from[3], double *cons
         memcpy(to[d], from[d], body->n * sizeof(double));
 }
 
-/* Work of supports and loads from the last equilibrium to this one, by the trapezoidal rule. */
+/* Work of supports and loads on the way to this equilibrium, by the trapezoidal rule. */
 static double work_of_node(const void *context, size_t i) {
     const struct statics *s = context;
     const struct kr_body *body = s->run->body;
@@ -82,6 +82,27 @@ static _Noreturn void give_up(const struct statics *s, double t) {
             s->q->end == KR_EQUILIBRIUM_SNAP ? "no step lowers the energy" : "too slow");
 }
 
+/* Free components go on as from the equilibrium before the last to the last one, unless bonds broke there. */
+static void guess(struct statics *s, double from, double t) {
+    const struct kr_body *body = s->run->body;
+    const struct kr_checkpoint *at = &s->r->at;
+    const double last = from - at->rest_clock, share = last > 0 ? (t - from) / last : 0;
+    for (int d = 0; d < body->dim; d++)
+#pragma omp parallel for schedule(static)
+        for (size_t i = 0; i < body->n; i++)
+            s->q->move[d][i] = share * (body->u[d][i] - at->rest[d][i]);
+}
+
+/* The search that ended began at the equilibrium before this one. */
+static void accept(struct statics *s, double from) {
+    for (int d = 0; d < s->run->body->dim; d++) {
+        double *swapped = s->r->at.rest[d];
+        s->r->at.rest[d] = s->before[d];
+        s->before[d] = swapped;
+    }
+    s->r->at.rest_clock = from;
+}
+
 /* Equilibrium with the loads of time t; a signal takes the body back to where it was, leaves a
  * checkpoint and ends the run. */
 static void find(struct statics *s, long step, double from, double t) {
@@ -89,8 +110,7 @@ static void find(struct statics *s, long step, double from, double t) {
     q->rest->least_pull = SLACK * s->r->at.most_pull;
     remember(s);
     kr_rest_loads(q->rest, s->boundary, t);
-    for (int d = 0; d < q->body->dim; d++)
-        memset(q->move[d], 0, q->body->n * sizeof(double));
+    guess(s, from, t);
     if (s->r->at.round == 0)
         kr_boundary_way(s->boundary, q->body, from, t, q->move);
     if (kr_settle(q, s->run->safe_step) != KR_EQUILIBRIUM_FOUND) {
@@ -131,8 +151,10 @@ static double first_round(struct statics *s, long step) {
         find(s, step, clock, t);
         if (!s->stage->breaks || s->stage->least_step <= 0 || s->r->crack->count ||
             t - clock <= s->stage->least_step * (1 + 1e-9) ||
-            !kr_body_overstretched(s->run->body))
+            !kr_body_overstretched(s->run->body)) {
+            accept(s, clock);
             return t;
+        }
         copy(s->run->body, s->before, s->run->body->u);
         kr_rest_loads(s->q->rest, s->boundary, clock);
         t = clock + fmax(0.5 * (t - clock), s->stage->least_step);
@@ -161,6 +183,7 @@ static void break_bonds(struct statics *s, long step) {
         }
         s->resumed = 0;
         find(s, step, at->clock, at->clock);
+        accept(s, at->clock);
         kr_ledger_rest(s->r->ledger, s->run->body, s->r->crack, s->work);
         at->round++;
     }

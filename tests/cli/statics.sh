@@ -173,4 +173,24 @@ steps_of_three_sizes() {
     echo "$large $middle $small" | awk '{ exit !($1 >= $2 && $2 >= $3 && $3 > $1 - 0.0401 && $3 > 3.2) }'
 }
 check first_crack_is_the_same_for_all_load_steps steps_of_three_sizes
+
+# An intact body goes on as it went in the load step before, so most steps cost nothing; where the load turns round it
+# does not, and is found anew in two steps. Either way it ends where one step of the whole load does.
+ends_as_at_once() { # load that ends at 5 s where it would in one step, number of steps that may cost products
+    rm -rf "$work/slow" && mkdir "$work/slow" && solve_wrong "s/0.01\\*t/0.01*($1)/; s/tolerance: 1e-6/&, breaks: false, steps: [{count: 5, size: 1 s}]/" \
+        >"$work/slow.log" 2>&1 && cp -r "$work/wrong/run" "$work/slow/" &&
+        solve_wrong "s/0.01\\*t/0.01*($1)/; s/tolerance: 1e-6/&, breaks: false, steps: [{count: 1, size: 5 s}]/" >"$work/once.log" 2>&1
+    cat "$work/slow.log" "$work/once.log"
+    costly=$(grep -c 'load step.*after [1-9][0-9]* products' "$work/slow.log")
+    [ "$costly" -eq "$2" ] || { echo "$costly load steps cost products, expected $2"; return 1; }
+    /usr/bin/python3 - "$work" <<'END'
+import glob, sys, h5py, numpy
+slow, once = (h5py.File(sorted(glob.glob(f"{sys.argv[1]}/{name}/run/0*.h5"))[-1])["Displacement"][:] for name in ("slow", "wrong"))
+off = abs(slow - once).max() / abs(once).max()
+print(f"# figure five load steps end {off:.1e} of the displacement off one")
+sys.exit(not 0 < abs(once).max() or not off < 1e-5)  # residuals of 1e-6, and long waves a little softer
+END
+}
+check load_steps_go_on_as_before ends_as_at_once '0.0001*t' 1
+check load_that_turns_round_is_found_anew ends_as_at_once '0.0001*(3 - abs(t - 3))' 3
 echo "1..$count"
