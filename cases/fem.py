@@ -37,7 +37,7 @@ HEAD = """*INCLUDE, INPUT=plate.inp
 *ELASTIC
 {youngs_modulus:.13g}, {poisson:.13g}
 *SOLID SECTION, ELSET=cells, MATERIAL=plate
-1.
+{thickness:.6g}
 *BOUNDARY
 {boundary}
 *STEP
@@ -52,12 +52,18 @@ S
 """
 
 
-def solve(build, folder, holds, youngs_modulus, poisson=1 / 3):
+def thickness_of(cells, share):
+    """ccx makes bricks of plane elements, one through the thickness. Where they are much thinner than wide, each can
+    become thinner for itself, as plane stress has it; as thick as many cells, the plate is nearly in plane strain."""
+    return share * numpy.sqrt(cells.volume.mean())
+
+
+def solve(build, folder, holds, youngs_modulus, poisson=1 / 3, thinness=0.01):
     """Solve on the cells of FOLDER/plate.msh, within FOLDER/fem: the cells, displacements (corners x
     2) and stresses (corners x 3: xx, yy, xy) at their corners.
 
     holds: a function of the cells that gives {(set or number of a corner, component 1 or 2):
-    displacement}. What is newer than its input is not found again.
+    displacement}; thinness: thickness over the width of a cell. What is newer than its input is not found again.
     """
     work = os.path.join(folder, "fem")
     os.makedirs(work, exist_ok=True)
@@ -68,7 +74,7 @@ def solve(build, folder, holds, youngs_modulus, poisson=1 / 3):
     cells = Cells(work)
     lines = [f"{where}, {d}, {d}, {value:.13g}" for (where, d), value in holds(cells).items()]
     text = HEAD.format(youngs_modulus=youngs_modulus, poisson=poisson, loads="\n".join(lines),
-                       boundary="\n".join(line.rsplit(",", 1)[0] for line in lines))
+                       thickness=thickness_of(cells, thinness), boundary="\n".join(line.rsplit(",", 1)[0] for line in lines))
     run(work, text, inp)
     fields = read_frd(os.path.join(work, "fem.frd"))
     corners = len(cells.point)
