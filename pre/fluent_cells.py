@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Cells from their faces, for from_fluent.py: a face knows the cells on its two sides, a cell nothing. The nodes of
-a face turn about an axis into its first cell; in 2D it lies to the left of the way from the first node to the
-second.
+a face turn about an axis into its first cell, and in 2D it lies to the left of the way from the first node to the
+second; or all have it the other way round.
 """
 import numpy as np
 

@@ -7,7 +7,8 @@ and binary. A file is a row of sections in parentheses, each with a decimal numb
 
 with hexadecimal numbers in 10, 12, 13, and decimal ones of the zones in 39 and 45; 2010 and 3010, 2012 ... are
 binary with floats of 4 and 8 bytes and integers of 4. By the right-hand rule the nodes of a face turn about
-an axis that points into c0; in 2D c0 lies to the left of the way from the first node to the second.
+an axis that points into c0; in 2D TGrid has c0 to the right of the way from the first node to the second, others to the
+left: the sign of the area or volume within the boundary tells (is_swapped).
 0 is no cell. Cells have no nodes of their own: they are put together from their faces here.
 
 Source: Ansys Fluent User's Guide, appendix B, Case and Data File Formats, sections B.2 and B.3.
