@@ -136,8 +136,8 @@ cat >"$work/small.msh" <<'FLUENT'
 (45 (11 wall rim)())
 FLUENT
 small() {
-    convert "$work/small.msh" || return 1
-    $python - "$work/small.nodes.h5" <<'PY'
+    convert "$work/$1.msh" || return 1
+    $python - "$work/$1.nodes.h5" <<'PY'
 import sys
 import h5py
 import numpy as np
@@ -146,7 +146,12 @@ with h5py.File(sys.argv[1]) as f:
     assert {name: list(rows) for name, rows in f["sets"].items()} == {"plate": [0, 1, 2], "rim": [0, 1, 2]}
 PY
 }
-check zones_count_in_two_ways small
+check zones_count_in_two_ways small small
+# As TGrid 2.4 did: comments without quotes, no dimension of the nodes' declaration, no kind of the cells, c0 on the right.
+sed 's/^(0 .*/(0 grid\n  nodes: (10 (id start end type) (x y ...))\n)/; s/(10 (0 1 6 0 2))/(10 (0 1 6 0))/
+    s/(12 (a 1 3 1 0)(1 1 3))/(12 (a 1 3 1))/; s/(13 (b 3 8 3 2)(/(13(b 3 8 3 2) (/
+    s/^\([1-6]\) \([1-6]\) \([0-3] [0-3]\)$/\2 \1 \3/' "$work/small.msh" >"$work/tgrid.msh"
+check tgrid small tgrid
 spoilt() { # name, line of sed, words
     sed "$2" "$work/small.msh" >"$work/spoilt.msh"
     cmp -s "$work/small.msh" "$work/spoilt.msh" && echo "# $1 spoils nothing"
