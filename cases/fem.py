@@ -58,7 +58,7 @@ def thickness_of(cells, share):
     return share * numpy.sqrt(cells.volume.mean())
 
 
-def solve(build, folder, holds, youngs_modulus, poisson=1 / 3, thinness=0.01):
+def solve(build, folder, holds, youngs_modulus, poisson=1 / 3, thinness=0.05):
     """Solve on the cells of FOLDER/plate.msh, within FOLDER/fem: the cells, displacements (corners x
     2) and stresses (corners x 3: xx, yy, xy) at their corners.
 
