@@ -51,19 +51,23 @@ def valleys(tips):
     return low, seen
 
 
-def times_at_pores(folder):
-    """When the tip arrives at each pore of a row on the crack's line, and when it leaves it [s], and the way between
-    [m]. The tip is the foremost node with a damage of 0.35 (the paper's appendix 2); it is at an edge of a pore when it
-    is half a horizon away. NaN for pores that it does not reach."""
+def times_at(folder, places):
+    """When the tip comes to each x of `places` [m], NaN where it does not; [s]. The tip is the foremost node with a
+    damage of 0.35, as in the paper's appendix 2."""
     with h5py.File(os.path.join(folder, "run.h5")) as file:
-        near = file.attrs["horizon"] / 2
         x, time = file["nodes/position"][:, 0], file["crack/Damage_Time"][:]
     order = numpy.argsort(time, kind="stable")  # nodes without damage have no time, and come last
     order = order[numpy.isfinite(time[order])]
-    front, time = numpy.maximum.accumulate(x[order]), numpy.append(time[order], numpy.nan)
+    return numpy.append(time[order], numpy.nan)[numpy.searchsorted(numpy.maximum.accumulate(x[order]), places)]
+
+
+def times_at_pores(folder):
+    """When the tip arrives at each pore of a row on the crack's line, and when it leaves it [s], and the way between
+    [m]: it is at an edge of a pore when it is half a horizon away."""
+    with h5py.File(os.path.join(folder, "run.h5")) as file:
+        way = 2 * RADIUS + file.attrs["horizon"]
     centre = PITCH * numpy.arange(1, ROWS + 1)
-    arrives, leaves = (time[numpy.searchsorted(front, centre + side * (RADIUS + near))] for side in (-1, 1))
-    return arrives, leaves, 2 * (RADIUS + near)
+    return times_at(folder, centre - way / 2), times_at(folder, centre + way / 2), way
 
 
 def trapped(folder):
