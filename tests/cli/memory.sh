@@ -45,10 +45,10 @@ print(used.ru_maxrss // 1024)
 sys.exit(os.waitstatus_to_exitcode(status))' "$@"
 }
 
-estimate() { # shape, kind
+estimate() { # shape, kind, programs
     write_large "$1" "$2" && into="$work/$1" && mkdir -p "$into" || return
     [ -e "$into/plate.nodes.h5" ] || steps "$into" "mesh nodes" || return
-    for program in nodes solve; do
+    for program in ${3:-nodes solve}; do
         told=$("$build/kirsch-$program" --explain --output "$into" "$work/case.yaml" | sed -n 's/.*memory \([0-9]*\) MiB at.*/\1/p')
         taken=$(peak_of "$build/kirsch-$program" --output "$into" "$work/case.yaml") || return
         echo "# figure kirsch-$program, $1, $2: $told MiB told, $taken MiB taken"
@@ -103,6 +103,9 @@ check estimate_of_a_plate estimate near-boundary dynamic
 check estimate_at_rest estimate near-boundary static
 check estimate_of_a_block estimate solid dynamic
 check estimate_of_a_block_at_rest estimate solid static
+check estimate_of_a_mesh estimate near-boundary dynamic mesh
+check estimate_of_a_mesh_of_a_block estimate solid dynamic mesh
+check estimate_of_a_mesh_by_gmsh estimate free dynamic mesh
 check too_large_is_refused too_large
 check too_many_nodes_are_refused too_many_nodes
 for program in pores mesh nodes solve track; do check "each_allocation_fails_in_$program" failing $program; done

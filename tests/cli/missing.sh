@@ -119,8 +119,8 @@ check python_for_pictures no_python_for_pictures
 check python_for_comparing no_python "$bin/kirsch-plot" compare "$work/run" "$work/run"
 check not_hdf5 refused "it is no HDF5 file" "open(path, 'w').write('a text\n' * 1000)"
 check dataset_that_is_gone refused "nodes/volume: there is no such array" "f = h5py.File(path, 'r+'); del f['nodes/volume']; f.close()"
-check dataset_of_text refused "nodes/volume" \
+check dataset_of_text refused "nodes/volume: its numbers are of another type" \
     "f = h5py.File(path, 'r+'); n = len(f['nodes/volume']); del f['nodes/volume']; f['nodes/volume'] = ['x'] * n; f.close()"
-check dataset_of_another_length refused "nodes/volume" \
+check dataset_of_another_length refused "nodes/volume: its shape is" \
     "f = h5py.File(path, 'r+'); v = f['nodes/volume'][:-1]; del f['nodes/volume']; f['nodes/volume'] = v; f.close()"
 echo "1..$count"
