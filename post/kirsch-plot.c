@@ -34,6 +34,15 @@ static const char usage[] =
     "kirsch-plot compare FOLDER FOLDER [--field NAME] [--at TIME]\n"
     "                     two runs and their difference, at the output nearest to TIME in us";
 
+/** Replace this program by Python with these words. */
+_Noreturn static void become_python(char **word) {
+    execv(PYTHON, word);
+    kr_stop(KR_EXIT_LIBRARY,
+            "cannot start " PYTHON ": %s; pictures need, on Debian: apt-get install python3 python3-numpy "
+            "python3-matplotlib python3-h5py",
+            strerror(errno));
+}
+
 /** Replace this program: plot.py compare FOLDER FOLDER; it needs no deck. */
 static void compare(int argc, char **argv) {
     char **word = KR_NEW(char *, (size_t)argc + 4);
@@ -41,8 +50,7 @@ static void compare(int argc, char **argv) {
     word[1] = "-B";
     word[2] = kr_child_script("plot.py");
     memcpy(word + 3, argv + 1, (size_t)(argc - 1) * sizeof *word);
-    execv(PYTHON, word);
-    kr_stop(KR_EXIT_LIBRARY, "cannot start " PYTHON ": %s", strerror(errno));
+    become_python(word);
 }
 
 /** Radius [m] of a ball around a void; 0 where only its file knows. */
@@ -83,11 +91,7 @@ static void hand_over(const struct kr_case *c, const struct kr_case_arguments *a
         word[n++] = kr_text("%.17g,%.17g,%.17g,%.17g", centre[0], centre[1], centre[2],
                             void_reach(&hollow[k]));
     }
-    execv(PYTHON, word);
-    kr_stop(KR_EXIT_LIBRARY,
-            "cannot start " PYTHON ": %s; pictures need Debian's python3, "
-            "python3-numpy, python3-matplotlib and python3-h5py",
-            strerror(errno));
+    become_python(word);
 }
 
 int main(int argc, char **argv) {
