@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Reading nodes and node sets from text. See points.h.
+ * Reading nodes from text. See points.h; node sets are in read_point_sets.c.
  */
 #include "points.h"
 
 #include "base/error.h"
 #include "base/memory.h"
 #include "convert.h"
+#include "point_lines.h"
 
-#include <ctype.h>
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,8 +19,7 @@ enum column { ID, X, Y, Z, VOLUME, BLOCK, COLUMNS, UNKNOWN = COLUMNS };
 enum { MOST_COLUMNS = 64 };
 
 struct table {
-    const char *path;
-    size_t number; /* of the line */
+    struct kr_point_lines lines;
     size_t n_columns;
     enum column column[MOST_COLUMNS];
     int has[COLUMNS + 1];
@@ -33,14 +31,6 @@ struct table {
     int is_no_set[MOST_COLUMNS];
     unsigned char *extra; /* (count x n_extra) */
 };
-
-static const char BETWEEN[] = " \t,;\r\n";
-
-/** Cut a comment off; whether anything is left. */
-static int has_content(char *line) {
-    line[strcspn(line, "#\r\n")] = 0;
-    return line[strspn(line, BETWEEN)] != 0;
-}
 
 static enum column column_of(const char *name) {
     static const struct {
@@ -57,11 +47,11 @@ static enum column column_of(const char *name) {
 
 static void add_column(struct table *table, enum column column) {
     if (table->n_columns == MOST_COLUMNS)
-        kr_stop(KR_EXIT_INPUT, "%s:%zu: more than %d columns", table->path, table->number,
+        kr_stop(KR_EXIT_INPUT, "%s:%zu: more than %d columns", table->lines.path, table->lines.number,
                 MOST_COLUMNS);
     if (column != UNKNOWN && table->has[column])
-        kr_stop(KR_EXIT_INPUT, "%s:%zu: two columns have the same meaning", table->path,
-                table->number);
+        kr_stop(KR_EXIT_INPUT, "%s:%zu: two columns have the same meaning", table->lines.path,
+                table->lines.number);
     table->has[column] = 1;
     table->column[table->n_columns++] = column;
 }
@@ -69,7 +59,7 @@ static void add_column(struct table *table, enum column column) {
 /** The line with the names of the columns. */
 static void read_names(struct table *table, char *line) {
     char *rest = NULL;
-    for (char *word = strtok_r(line, BETWEEN, &rest); word; word = strtok_r(NULL, BETWEEN, &rest)) {
+    for (char *word = strtok_r(line, KR_POINT_BETWEEN, &rest); word; word = strtok_r(NULL, KR_POINT_BETWEEN, &rest)) {
         if (word[0] == '[' || word[0] == '(' || !strcasecmp(word, "header:"))
             continue; /* a unit */
         word[strcspn(word, "[(")] = 0;
@@ -80,7 +70,7 @@ static void read_names(struct table *table, char *line) {
     }
     if (!table->has[X] || !table->has[Y] || !table->has[VOLUME])
         kr_stop(KR_EXIT_INPUT, "%s:%zu: expected columns named x, y and volume at the least",
-                table->path, table->number);
+                table->lines.path, table->lines.number);
 }
 
 /** Columns of a file without names. */
@@ -94,19 +84,19 @@ static const char *const what[] = {"a node number", "x",  "y", "z", "a volume", 
                                    "a number"};
 
 static double read_number(const struct table *table, char **at, enum column column) {
-    char *from = *at + strspn(*at, BETWEEN), *end;
+    char *from = *at + strspn(*at, KR_POINT_BETWEEN), *end;
     double value = strtod(from, &end);
-    if (end == from || !isfinite(value) || (*end && !strchr(BETWEEN, *end)))
-        kr_stop(KR_EXIT_INPUT, "%s:%zu: expected %s, found '%.*s'", table->path, table->number,
-                what[column], (int)strcspn(from, BETWEEN), from);
+    if (end == from || !isfinite(value) || (*end && !strchr(KR_POINT_BETWEEN, *end)))
+        kr_stop(KR_EXIT_INPUT, "%s:%zu: expected %s, found '%.*s'", table->lines.path, table->lines.number,
+                what[column], (int)strcspn(from, KR_POINT_BETWEEN), from);
     *at = end;
     return value;
 }
 
 /** What stands in a column that is not known: a word of any kind. */
 static void read_extra(struct table *table, char **at, size_t k) {
-    char *from = *at + strspn(*at, BETWEEN);
-    size_t length = strcspn(from, BETWEEN);
+    char *from = *at + strspn(*at, KR_POINT_BETWEEN);
+    size_t length = strcspn(from, KR_POINT_BETWEEN);
     int is_flag = length == 1 && (*from == '0' || *from == '1');
     table->is_no_set[k] |= !is_flag;
     table->extra[(table->count - 1) * table->n_extra + k] = is_flag && *from == '1';
@@ -126,48 +116,21 @@ static void read_row(struct table *table, char *line) {
         else
             row[table->column[k]] = read_number(table, &at, table->column[k]);
     }
-    at += strspn(at, BETWEEN);
+    at += strspn(at, KR_POINT_BETWEEN);
     if (*at)
-        kr_stop(KR_EXIT_INPUT, "%s:%zu: found '%.40s' behind the last of %zu columns", table->path,
-                table->number, at, table->n_columns);
+        kr_stop(KR_EXIT_INPUT, "%s:%zu: found '%.40s' behind the last of %zu columns", table->lines.path,
+                table->lines.number, at, table->n_columns);
     if (!(row[VOLUME] > 0))
-        kr_stop(KR_EXIT_INPUT, "%s:%zu: the volume is %g; expected a positive one", table->path,
-                table->number, row[VOLUME]);
+        kr_stop(KR_EXIT_INPUT, "%s:%zu: the volume is %g; expected a positive one", table->lines.path,
+                table->lines.number, row[VOLUME]);
 }
 
 /** Whether a line begins with a name, not a number. "nan" and "inf" are neither. */
-static int is_names(const char *line) {
-    line += strspn(line, BETWEEN);
-    return isalpha((unsigned char)*line) && strncasecmp(line, "nan", 3) && strncasecmp(line, "inf", 3);
-}
-
-/** A line of a text file without its comment; 0 at the end. A zero byte is no text. */
-static int next_line(struct table *table, FILE *file, char **line, size_t *room) {
-    ssize_t length;
-    while ((length = getline(line, room, file)) >= 0) {
-        table->number++;
-        if (strlen(*line) != (size_t)length)
-            kr_stop(KR_EXIT_INPUT, "%s:%zu: this is no text", table->path, table->number);
-        if (has_content(*line))
-            return 1;
-    }
-    return 0;
-}
-
-static FILE *open_text(const char *path) {
-    FILE *file = fopen(path, "r");
-    if (!file)
-        kr_stop(KR_EXIT_INPUT, "%s: cannot be read: %s", path, strerror(errno));
-    return file;
-}
-
 static struct table read_table(const char *path) {
-    struct table table = {.path = path};
-    FILE *file = open_text(path);
-    char *line = NULL;
-    size_t room = 0;
-    while (next_line(&table, file, &line, &room)) {
-        if (!table.n_columns && is_names(line)) {
+    struct table table = {.lines = kr_point_lines_open(path)};
+    char *line;
+    while ((line = kr_point_lines_next(&table.lines))) {
+        if (!table.n_columns && kr_point_lines_is_names(line)) {
             read_names(&table, line);
             continue;
         }
@@ -175,8 +138,7 @@ static struct table read_table(const char *path) {
             assume_columns(&table);
         read_row(&table, line);
     }
-    free(line);
-    fclose(file);
+    kr_point_lines_close(&table.lines);
     if (!table.count)
         kr_stop(KR_EXIT_INPUT, "%s: no nodes found; expected lines of `x y z volume block`",
                 path);
@@ -195,7 +157,7 @@ static int is_plane(const struct table *table) {
 static int64_t whole(const struct table *table, size_t i, enum column column) {
     double value = table->row[i][column];
     if (value != round(value) || fabs(value) > 9e15)
-        kr_stop(KR_EXIT_INPUT, "%s: row %zu has %g for %s; expected a whole number", table->path,
+        kr_stop(KR_EXIT_INPUT, "%s: row %zu has %g for %s; expected a whole number", table->lines.path,
                 i + 1, value, what[column]);
     return (int64_t)value;
 }
@@ -226,7 +188,7 @@ static void add_blocks(const struct table *table, struct kr_nodes *nodes) {
 static void add_extra(struct table *table, struct kr_nodes *nodes) {
     for (size_t e = 0; e < table->n_extra; e++) {
         if (table->is_no_set[e]) {
-            kr_warn("%s: the column '%s' is not used: it holds more than 0 and 1", table->path,
+            kr_warn("%s: the column '%s' is not used: it holds more than 0 and 1", table->lines.path,
                     table->extra_name[e]);
         } else if (!kr_nodes_set(nodes, table->extra_name[e])) {
             int64_t *node = KR_NEW(int64_t, nodes->n);
@@ -264,79 +226,4 @@ struct kr_nodes *kr_points_read(const char *path, double unit, double thickness)
     if (fault)
         kr_stop(KR_EXIT_INPUT, "%s: %s", path, fault);
     return nodes;
-}
-
-/* ---- node sets ---- */
-
-struct numbered {
-    int64_t tag, node;
-};
-
-static int by_tag(const void *p, const void *q) {
-    const struct numbered *a = p, *b = q;
-    return (a->tag > b->tag) - (a->tag < b->tag);
-}
-
-static int ascending(const void *p, const void *q) {
-    int64_t a = *(const int64_t *)p, b = *(const int64_t *)q;
-    return (a > b) - (a < b);
-}
-
-static struct numbered *nodes_by_tag(const struct kr_nodes *nodes) {
-    struct numbered *item = KR_NEW(struct numbered, nodes->n);
-    for (size_t i = 0; i < nodes->n; i++)
-        item[i] = (struct numbered){nodes->tag[i], (int64_t)i};
-    qsort(item, nodes->n, sizeof *item, by_tag);
-    return item;
-}
-
-/** "left" of PATH/grid_ns_left.txt, nodelist_left.txt and left.txt; owned by the caller. */
-static char *name_of_set(const char *path) {
-    static const char *const before[] = {"_ns_", "ns_", "nodelist_", "nodeset_", "node_set_"};
-    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
-    const char *inside = strstr(name, before[0]);
-    if (inside)
-        name = inside + strlen(before[0]);
-    for (size_t k = 1; k < sizeof before / sizeof *before && !inside; k++)
-        if (!strncmp(name, before[k], strlen(before[k])) && name[strlen(before[k])] != '.')
-            inside = name += strlen(before[k]);
-    return kr_text("%.*s", (int)strcspn(name, "."), name);
-}
-
-void kr_points_read_set(const char *path, struct kr_nodes *nodes) {
-    struct table table = {.path = path};
-    struct numbered *known = nodes_by_tag(nodes), *hit;
-    FILE *file = open_text(path);
-    char *line = NULL, *word, *rest, *end;
-    size_t room = 0, count = 0, node_room = 0, kept = 0;
-    int64_t *node = NULL;
-    while (next_line(&table, file, &line, &room)) {
-        if (is_names(line))
-            continue; /* PeriLab's `header: global_id` */
-        rest = NULL;
-        for (word = strtok_r(line, BETWEEN, &rest); word; word = strtok_r(NULL, BETWEEN, &rest)) {
-            struct numbered key = {strtoll(word, &end, 10), 0};
-            hit = bsearch(&key, known, nodes->n, sizeof *known, by_tag);
-            if (*end || !hit)
-                kr_stop(KR_EXIT_INPUT, "%s:%zu: expected the number of a node, found '%.40s'", path,
-                        table.number, word);
-            KR_GROW(node, count, node_room);
-            node[count++] = hit->node;
-        }
-    }
-    free(line);
-    fclose(file);
-    kr_free(known);
-    if (!count)
-        kr_stop(KR_EXIT_INPUT, "%s: no node numbers found", path);
-    qsort(node, count, sizeof *node, ascending);
-    for (size_t k = 0; k < count; k++)
-        if (!kept || node[k] != node[kept - 1])
-            node[kept++] = node[k];
-    char *name = name_of_set(path);
-    if (kr_nodes_set(nodes, name))
-        kr_stop(KR_EXIT_INPUT, "%s: there is a set '%s' already; give the file another name", path,
-                name);
-    kr_nodes_add_set(nodes, name, kept, node, 0);
-    kr_free(name);
 }
