@@ -8,14 +8,17 @@ import h5py
 import numpy
 
 
-class Cells:
-    """Nodes and cells of a plate.nodes.h5."""
+MM = 1e-3  # m; ccx has lengths in mm, for it takes determinants below 1e-20, as of slivers in m, for 0
 
-    def __init__(self, folder):
+
+class Cells:
+    """Nodes and cells of a plate.nodes.h5 whose lengths are in this unit [m]."""
+
+    def __init__(self, folder, unit=1.0):
         with h5py.File(os.path.join(folder, "plate.nodes.h5")) as file:
-            self.position = file["nodes/position"][:]
-            self.volume = file["nodes/volume"][:]
-            self.point = file["cells/point"][:]
+            self.position = unit * file["nodes/position"][:]
+            self.volume = unit**2 * file["nodes/volume"][:]
+            self.point = unit * file["cells/point"][:]
             self.first = file["cells/first"][:]
             self.vertex = file["cells/vertex"][:]
             self.sets = {name: file["sets/" + name][:] for name in file["sets"]}
@@ -54,31 +57,32 @@ S
 
 def thickness_of(cells, share):
     """ccx makes bricks of plane elements, one through the thickness. Where they are much thinner than wide, each can
-    become thinner for itself, as plane stress has it; as thick as many cells, the plate is nearly in plane strain."""
-    return share * numpy.sqrt(cells.volume.mean())
+    become thinner for itself, as plane stress has it; as thick as many cells, the plate is nearly in plane strain.
+    In mm."""
+    return share * numpy.sqrt(cells.volume.mean()) / MM
 
 
 def solve(build, folder, holds, youngs_modulus, poisson=1 / 3, thinness=0.05):
-    """Solve on the cells of FOLDER/plate.msh, within FOLDER/fem: the cells, displacements (corners x
+    """Solve on the cells of FOLDER/plate.msh, within FOLDER/ccx: the cells, displacements (corners x
     2) and stresses (corners x 3: xx, yy, xy) at their corners.
 
     holds: a function of the cells that gives {(set or number of a corner, component 1 or 2):
     displacement}; thinness: thickness over the width of a cell. What is newer than its input is not found again.
     """
-    work = os.path.join(folder, "fem")
+    work = os.path.join(folder, "ccx")
     os.makedirs(work, exist_ok=True)
     mesh, inp = os.path.join(folder, "plate.msh"), os.path.join(work, "plate.inp")
     if not is_newer(inp, mesh):
-        subprocess.check_call([os.path.join(build, "kirsch-nodes"), "--convert", mesh, "--output",
-                               work, "--write", "inp"], stdout=subprocess.DEVNULL)
-    cells = Cells(work)
-    lines = [f"{where}, {d}, {d}, {value:.13g}" for (where, d), value in holds(cells).items()]
+        subprocess.check_call([os.path.join(build, "kirsch-nodes"), "--convert", mesh, "--unit", "km",
+                               "--output", work, "--write", "inp"], stdout=subprocess.DEVNULL)
+    cells = Cells(work, MM)
+    lines = [f"{where}, {d}, {d}, {value / MM:.13g}" for (where, d), value in holds(cells).items()]
     text = HEAD.format(youngs_modulus=youngs_modulus, poisson=poisson, loads="\n".join(lines),
                        thickness=thickness_of(cells, thinness), boundary="\n".join(line.rsplit(",", 1)[0] for line in lines))
     run(work, text, inp)
     fields = read_frd(os.path.join(work, "fem.frd"))
     corners = len(cells.point)
-    return cells, fields["DISP"][:corners, :2], fields["STRESS"][:corners, [0, 1, 3]]
+    return cells, MM * fields["DISP"][:corners, :2], fields["STRESS"][:corners, [0, 1, 3]]
 
 
 def is_newer(path, than):

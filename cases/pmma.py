@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the three cases of PMMA plates with rows of pores share: section 5 of the plates paper."""
+import os
+
+import h5py
 import matplotlib.pyplot as pyplot
 import numpy
 from matplotlib.collections import LineCollection
@@ -48,24 +51,31 @@ def valleys(tips):
     return low, seen
 
 
-def trapped(events, tips):
-    """For each pore passed: time in it over diameter/(speed of the crack between pores)."""
-    share = []
-    for k, kind in enumerate(events["kind"]):
-        if kind != "enter hole":
-            continue
-        hole = events["hole"][k]
-        for n in range(k + 1, len(events["kind"])):
-            if events["kind"][n] == "leave hole" and events["hole"][n] == hole:
-                x = PITCH * round(events["x [m]"][k] / PITCH)
-                speed = mean_speed(tips, x - PITCH / 2 - RADIUS, x - PITCH / 2 + RADIUS) * RAYLEIGH
-                if numpy.isfinite(speed) and speed > 0:
-                    share.append((events["time [s]"][n] - events["time [s]"][k]) * speed / (2 * RADIUS))
-                break
-    return numpy.array(share)
+def times_at(folder, places):
+    """When the tip comes to each x of `places` [m], NaN where it does not; [s]. The tip is the foremost node with a
+    damage of 0.35, as in the paper's appendix 2."""
+    with h5py.File(os.path.join(folder, "run.h5")) as file:
+        x, time = file["nodes/position"][:, 0], file["crack/Damage_Time"][:]
+    order = numpy.argsort(time, kind="stable")  # nodes without damage have no time, and come last
+    order = order[numpy.isfinite(time[order])]
+    return numpy.append(time[order], numpy.nan)[numpy.searchsorted(numpy.maximum.accumulate(x[order]), places)]
 
 
-RAYLEIGH = 929.0  # m/s; replaced by that of the run's summary.csv
+def times_at_pores(folder):
+    """When the tip arrives at each pore of a row on the crack's line, and when it leaves it [s], and the way between
+    [m]: it is at an edge of a pore when it is half a horizon away."""
+    with h5py.File(os.path.join(folder, "run.h5")) as file:
+        way = 2 * RADIUS + file.attrs["horizon"]
+    centre = PITCH * numpy.arange(1, ROWS + 1)
+    return times_at(folder, centre - way / 2), times_at(folder, centre + way / 2), way
+
+
+def trapped(folder):
+    """For each pore but the first, where the crack may wait for the load: time in it over the time that the crack takes
+    for as long a way before it (Fig. 16 of the paper)."""
+    arrives, leaves, way = times_at_pores(folder)
+    share = (leaves - arrives)[1:] / (arrives[1:] - leaves[:-1]) * (PITCH - way) / way
+    return share[numpy.isfinite(share)]
 
 
 def summary_of(path):
@@ -73,14 +83,12 @@ def summary_of(path):
     return dict(zip(table["name"], table["value"]))
 
 
-def look(case, label, notch):
+def look(case, label):
     """Tables of one run, and the rows that all cases have."""
-    global RAYLEIGH
     tips = table_of(case.path(label, "tips.csv"))
     events = table_of(case.path(label, "events.csv"))
     branches = table_of(case.path(label, "branches.csv"))
     summary = summary_of(case.path(label, "summary.csv"))
-    RAYLEIGH = summary["rayleigh_speed"]
     end = list(branches["end"])
     case.row(f"{label}: first growth [us]", 1e6 * summary["first_growth"])
     case.row(f"{label}: crack through [us]", 1e6 * summary["arrival"])
@@ -91,7 +99,7 @@ def look(case, label, notch):
              verdict=bool(summary["top_speed_over_rayleigh"] < 1), source="below 1: theory")
     case.row(f"{label}: energy balance over work", abs(summary["energy_balance"]),
              reference=0.0, tolerance=0.03, source="ours")
-    return tips, events, branches, summary
+    return tips
 
 
 def run(case, notch, grid=None, deck="case.yaml", owner=""):
@@ -148,7 +156,7 @@ def compare(name, first_pore):
             continue
         label = run(case, notch, grid)
         labels.append(label)
-        tips, events, branches, summary = look(case, label, notch)
+        tips = look(case, label)
         speed = at_first_pore(tips)
         test, words = first_pore[notch]
         case.row(f"{label}: speed over Rayleigh's at the first pore", speed,
@@ -157,10 +165,10 @@ def compare(name, first_pore):
         if name != "pmma-a":
             case.row(f"{label}: pores beside a valley of the speed", f"{low} of {seen}",
                      verdict=bool(seen and low > seen / 2), source="paper, Fig. 15: valleys at the pores")
-        share = trapped(events, tips)
+        share = trapped(case.path(label)) if name == "pmma-a" else []
         if len(share):
-            case.row(f"{label}: time in a pore over diameter/speed, median of {len(share)}",
-                     float(numpy.median(share)), reference=1.0, tolerance=0.5,
-                     source="paper, Fig. 16: equal")
+            case.row(f"{label}: time in a pore over that for as long a way before it, median of {len(share)}",
+                     float(numpy.median(share)), reference=1.0, tolerance=0.25,
+                     source="paper, Fig. 16: the same; read off a curve")
     draw(case, labels)
     case.finish()

@@ -137,8 +137,8 @@ static const struct kr_deck_key stage_keys[] = {
      .text = "Static: a load step that would break the first bond is halved until it is no larger than "
              "this; 0: load steps are taken as they are."},
     {"end_below", NUMBER_OF(STAGE_AT(end_below), "1"), .fallback = "0.01", .least = 0, .most = 1,
-     .text = "Static: once bonds broke, the run ends where what holds the body is less than this share of "
-             "the most it was. It also ends where no bond joins two supports any more."},
+     .text = "Static: where bonds broke and equilibrium was found again, the run ends if what holds the body is "
+             "less than this share of the most it was. It also ends where no bond joins two supports any more."},
     {"tolerance", NUMBER_OF(STAGE_AT(tolerance), "1"), .fallback = "1e-6", .least = 0, .most = 0.1,
      .exclusive = 1,
      .text = "Static and relaxation: forces left on free nodes, over the forces that hold the body."},

@@ -34,7 +34,7 @@ struct statics {
     struct kr_equilibrium *q;
     double *before[3], *pull[3], *load[3]; /* u, force and loads where the search for equilibrium began */
     double work;                           /* J/m, since then */
-    int apart;
+    const char *over; /* why the run ends here; NULL while it goes on */
     int resumed; /* in the middle of a load step */
 };
 
@@ -166,11 +166,12 @@ static int break_some(struct statics *s, long step) {
     if (!s->run->body->broken.count)
         return 0;
     kr_records_crack(s->r, step, s->r->at.clock);
-    s->apart = kr_held_apart(s->run->bonds, s->boundary);
-    return !s->apart;
+    if (kr_held_apart(s->run->bonds, s->boundary))
+        s->over = "has come apart";
+    return !s->over;
 }
 
-/* Break bonds and find equilibrium again, until none breaks. A run that was stopped goes on behind the
+/* Break bonds and find equilibrium again, until none breaks, or the body holds too little. A run that was stopped goes on behind the
  * breaking. */
 static void break_bonds(struct statics *s, long step) {
     struct kr_checkpoint *at = &s->r->at;
@@ -185,6 +186,10 @@ static void break_bonds(struct statics *s, long step) {
         accept(s, at->clock);
         kr_ledger_rest(s->r->ledger, s->run->body, s->r->crack, s->work);
         at->round++;
+        if (s->q->rest->pull < s->stage->end_below * at->most_pull) {
+            s->over = "holds less than end_below of the most it held";
+            return;
+        }
     }
     if (at->round == MOST_ROUNDS)
         kr_warn("bonds still break after %d rounds at t = %.6g s; the load step is left there",
@@ -254,8 +259,6 @@ static void load_step(struct statics *s, long step) {
     }
     at->most_pull = fmax(at->most_pull, s->q->rest->pull);
     break_bonds(s, step);
-    if (s->r->crack->count && s->q->rest->pull < s->stage->end_below * at->most_pull)
-        s->apart = 1;
     kr_say("  load step %ld, t %.6g s: residual %.1e after %d products in %.1f s, pull %.6g %s, %zu bonds broken in "
            "%ld rounds", step, at->clock, s->q->rest->residual, products,
            kr_progress_clock() - begun, s->q->rest->pull,
@@ -271,17 +274,17 @@ int kr_run_static(struct kr_run *run, struct kr_records *r) {
     for (;; step++) {
         kr_records_save(r, step);
         load_step(&s, step);
-        int done = s.apart || r->at.clock >= s.stage->end * (1 - 1e-12);
-        write(&s, done, done && (s.apart || r->at.stage + 1 == run->n_stages), step, r->at.clock);
+        int done = s.over || r->at.clock >= s.stage->end * (1 - 1e-12);
+        write(&s, done, done && (s.over || r->at.stage + 1 == run->n_stages), step, r->at.clock);
         r->at.round = 0;
         if (done)
             break;
     }
-    if (s.apart)
-        kr_say("  the body has come apart at t = %.6g s of stage %zu: the run ends here", r->at.clock,
+    if (s.over)
+        kr_say("  the body %s at t = %.6g s of stage %zu: the run ends here", s.over, r->at.clock,
                r->at.stage + 1);
     kr_records_next_stage(r, step, r->at.clock);
     r->at.clock = 0;
     end(&s);
-    return s.apart;
+    return s.over != NULL;
 }

@@ -439,45 +439,6 @@ PY
 }
 check vtu_wedges wedges_of_vtk
 
-# Fluent's .msh as meshio writes it, ASCII and binary; zones make no sets, and that is said; real ones are refused.
-$python - "$work" <<'PY' >"$work/log" 2>&1
-import sys
-import meshio
-work = sys.argv[1]
-for name in ("plate", "block"):
-    m = meshio.read(f"{work}/{name}.msh")
-    top = "quad triangle" if name == "plate" else "hexahedron wedge"
-    cells = [(c.type, c.data) for c in m.cells if c.type in top.split()]
-    for binary in (False, True):
-        meshio.write(f"{work}/{name}_fluent{int(binary)}.msh", meshio.Mesh(m.points, cells),
-                     file_format="ansys", binary=binary)
-PY
-for body in plate block; do
-    check fluent_$body gives ${body}_fluent0.msh 2
-    check fluent_binary_$body gives ${body}_fluent1.msh 2
-done
-{ cat "$work/plate_fluent0.msh"; echo '(45 (18 fluid inner)())'; echo '(45 (19 wall rim)())'; } >"$work/zones.msh"
-check fluent_zones_are_named stops 0 "the zones inner, rim of a Fluent mesh make no sets" convert "$work/zones.msh"
-cat >"$work/faces.msh" <<'FLUENT'
-(0 "GAMBIT to Fluent File")
-(2 2)
-(10 (0 1 4 1 2))
-(10 (1 1 4 1 2)(
-0 0
-1 0
-1 1
-0 1
-))
-(12 (0 1 1 0))
-(13 (3 1 4 3 2)(
-1 2 1 0
-2 3 1 0
-3 4 1 0
-4 1 1 0
-))
-FLUENT
-check fluent_by_faces stops 2 "given by its faces" convert "$work/faces.msh"
-
 # Peers' faults, on meshes that gmsh made irregular: one kind of cell read of two, vertex means for centroids,
 # volumes shared out to vertices, groups of plane cells passed over, numbers taken to have no gaps. Areas, volumes
 # and centroids against those worked out here: polygons as triangles, hexahedra by Gauss points of their map.
