@@ -71,15 +71,13 @@ static double void_reach(const struct kr_case_void *hollow) {
     return 0;
 }
 
-/** plot.py FOLDER PICTURE... --disc x,y,radius... --ball x,y,z,radius... (in m) */
+/** plot.py FOLDER --disc x,y,radius... --ball x,y,z,radius... (in m) PICTURE... */
 static _Noreturn void hand_over(const struct kr_case *c, const struct kr_case_arguments *arguments) {
     size_t n_holes, n_voids, n = COMMAND;
     struct kr_case_hole *hole = kr_case_holes(c, &n_holes);
     struct kr_case_void *hollow = kr_case_voids(c, &n_voids);
     char **word = KR_NEW(char *, COMMAND + 2 + arguments->n_left + 2 * (n_holes + n_voids));
     word[n++] = (char *)c->folder;
-    for (size_t k = 0; k < arguments->n_left; k++)
-        word[n++] = (char *)arguments->left[k];
     for (size_t k = 0; k < n_holes; k++) {
         double centre[2], radius = kr_case_hole_reach(&hole[k], centre);
         word[n++] = "--disc";
@@ -91,6 +89,9 @@ static _Noreturn void hand_over(const struct kr_case *c, const struct kr_case_ar
         word[n++] = kr_text("%.17g,%.17g,%.17g,%.17g", centre[0], centre[1], centre[2],
                             void_reach(&hollow[k]));
     }
+    /* Last, so that an option without its value is seen to have none. */
+    for (size_t k = 0; k < arguments->n_left; k++)
+        word[n++] = (char *)arguments->left[k];
     become_script(word);
 }
 
