@@ -212,7 +212,6 @@ fuzz: deps
 sanitize: deps
 	@tests/deps install valgrind clang libomp-dev
 	@$(MAKE) --no-print-directory all
-	@$(MAKE) --no-print-directory BUILD=$(BUILD)/leak CFLAGS='-O2 -g -fsanitize=leak' CXX_FLAGS='-std=c++17 -O1 -Ipre' all
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/threads CC=clang HARDEN= KERNEL_FLAGS=-O1 CXX_FLAGS='-std=c++17 -O1 -Ipre' \
 	    CFLAGS='-g -O1 -fsanitize=thread -Wno-pass-failed' all
 	@BUILD=$(BUILD) tests/sanitize

@@ -44,8 +44,8 @@ static _Noreturn void become_script(char **word) {
     word[2] = kr_child_script("plot.py");
     execv(PYTHON, word);
     kr_stop(KR_EXIT_LIBRARY,
-            "cannot start " PYTHON ": %s; pictures need Debian's python3, "
-            "python3-numpy, python3-matplotlib and python3-h5py",
+            "cannot start " PYTHON ": %s; pictures need, on Debian: apt-get install python3 python3-numpy "
+            "python3-matplotlib python3-h5py",
             strerror(errno));
 }
 

@@ -24,8 +24,8 @@ try:
     import front
     import shape
 except ImportError as missing:
-    print("kirsch-plot: %s; pictures need Debian's python3-numpy, python3-matplotlib and "
-          "python3-h5py" % missing, file=sys.stderr)
+    print("kirsch-plot: %s; pictures need, on Debian: apt-get install python3-numpy "
+          "python3-matplotlib python3-h5py" % missing, file=sys.stderr)
     sys.exit(5)
 
 PICTURES = {

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,19 +22,38 @@
 /* Long enough for 10 million cells, short enough that a hang is noticed. */
 enum { SECONDS = 3600 };
 
-/** Pass on what a child noted; returns its error, owned by the caller, or NULL. */
-static char *listen(struct kr_child *child) {
+/** What Python lacks, if this line of a child's is the last of a trace that an import ended with: a sentence owned by
+ * the caller; else NULL. Debian's packages are named after their modules. */
+static char *what_is_missing(const char *line) {
+    char module[64], package[64];
+    size_t k = 0;
+    if (!strncmp(line, "ImportError: ", 13))
+        return kr_text("Python cannot load what reads or writes this format: %s", line + 13);
+    if (sscanf(line, "ModuleNotFoundError: No module named '%63[^'.]", module) != 1)
+        return NULL;
+    do
+        package[k] = (char)tolower((unsigned char)module[k]);
+    while (module[k++]);
+    return kr_text("this format needs Python's module %s, which is missing; on Debian: apt-get install python3-%s",
+                   module, package);
+}
+
+/** Pass on what a child noted; returns its error, owned by the caller, or NULL, and of which kind it is. */
+static char *listen(struct kr_child *child, enum kr_exit *code) {
     char *line = NULL, *error = NULL;
     size_t room = 0;
+    *code = KR_EXIT_INPUT;
     rewind(child->said);
-    while (getline(&line, &room, child->said) >= 0) {
+    while (!error && getline(&line, &room, child->said) >= 0) {
         line[strcspn(line, "\n")] = 0;
         if (!strncmp(line, "Note: ", 6))
             kr_warn("%s", line + 6);
         else if (!strncmp(line, "Warning", 7) && strstr(line, ": "))
             kr_warn("%s", strstr(line, ": ") + 2);
-        else if (!strncmp(line, "Error", 5) && strstr(line, ": ") && !error)
+        else if (!strncmp(line, "Error", 5) && strstr(line, ": "))
             error = kr_text_copy(strstr(line, ": ") + 2);
+        else if ((error = what_is_missing(line)))
+            *code = KR_EXIT_LIBRARY;
     }
     free(line);
     return error;
@@ -42,14 +62,15 @@ static char *listen(struct kr_child *child) {
 /** Run a program to its end; what goes wrong stops and names the file that it was about. */
 static void run(char *const *word, const char *about) {
     struct kr_child child;
+    enum kr_exit code;
     int status;
     kr_child_prepare(&child);
     kr_child_start_words(&child, word, SECONDS);
     kr_child_wait(&status);
-    char *error = listen(&child), *trouble = kr_child_trouble(status, SECONDS);
+    char *error = listen(&child, &code), *trouble = kr_child_trouble(status, SECONDS);
     kr_child_close(&child);
     if (error)
-        kr_stop(KR_EXIT_INPUT, "%s: %s", about, error);
+        kr_stop(code, "%s: %s", about, error);
     if (trouble)
         kr_stop(KR_EXIT_LIBRARY, "%s: %s was to read it, and %s", about, word[0], trouble);
 }

@@ -25,7 +25,8 @@
 struct kr_mesh *kr_mesh_read(const char *path, const char *folder, double spacing, char **points);
 
 /** Run /usr/bin/python3 on one of our scripts with two arguments. Lines that begin with "Note: "
- *  become warnings; one with "Error: " stops (exit 2) behind the path `about`. */
+ *  become warnings; one with "Error: " stops (exit 2) behind the path `about`, and so does a module of
+ *  Python that is missing (exit 5, with the package to install). */
 void kr_python(const char *script, const char *from, const char *to, const char *about);
 
 #endif

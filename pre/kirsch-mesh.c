@@ -3,6 +3,7 @@
  * kirsch-mesh: geometry of a case -> plate.msh.
  */
 #include "base/error.h"
+#include "base/machine.h"
 #include "base/memory.h"
 #include "block.h"
 #include "case.h"
@@ -11,6 +12,8 @@
 #include "plate.h"
 #include "quality.h"
 #include "quality_solid.h"
+
+#include <math.h>
 
 static const char usage[] =
     "kirsch-mesh case.yaml\n"
@@ -53,6 +56,34 @@ static struct kr_mesh *mesh_block(const struct kr_plate *plate, const struct kr_
     return mesh;
 }
 
+static struct kr_mesh *mesh_case(const struct kr_case_arguments *arguments, const struct kr_case *c,
+                                 const struct kr_deck *deck) {
+    struct kr_plate plate = {.width = c->width,
+                             .height = c->height,
+                             .spacing = c->spacing,
+                             .padding = c->padding > 0 ? c->padding : c->horizon,
+                             .grid = (enum kr_grid)c->grid,
+                             .lloyd_steps = c->lloyd_steps,
+                             .outline = c->outline};
+    if (arguments->explain)
+        kr_say("lattice of %.0f by %.0f cells of %.9g mm, boxes %.9g mm around %zu holes and %lld "
+               "pores",
+               plate.width / plate.spacing, plate.height / plate.spacing, 1e3 * plate.spacing,
+               1e3 * plate.padding, c->holes.count, (long long)c->pores.count);
+    struct kr_case_hole *hole = kr_case_holes(c, &plate.n_holes);
+    plate.hole = hole;
+    struct kr_mesh *mesh = c->depth > 0 ? mesh_block(&plate, c, deck) : mesh_plate(&plate);
+    kr_pieces_cut(mesh);
+    kr_free(hole);
+    return mesh;
+}
+
+/* What the mesh took is known when it is there. gmsh's children are processes of their own. */
+static void explain_memory(void) {
+    kr_say("  memory %.0f MiB at the most in one process; nothing is written",
+           fmax(kr_machine_peak(), kr_machine_peak_of_children()) / 1048576);
+}
+
 int main(int argc, char **argv) {
     struct kr_case_arguments arguments;
     struct kr_case c;
@@ -61,32 +92,16 @@ int main(int argc, char **argv) {
     if (arguments.n_left)
         kr_stop(KR_EXIT_INPUT, "unknown argument %s; see --help", arguments.left[0]);
     struct kr_deck *deck = kr_case_open(&arguments, &c);
-
-    struct kr_plate plate = {.width = c.width,
-                             .height = c.height,
-                             .spacing = c.spacing,
-                             .padding = c.padding > 0 ? c.padding : c.horizon,
-                             .grid = (enum kr_grid)c.grid,
-                             .lloyd_steps = c.lloyd_steps,
-                             .outline = c.outline};
-    if (arguments.explain) {
-        kr_say("lattice of %.0f by %.0f cells of %.9g mm, boxes %.9g mm around %zu holes and %lld "
-               "pores",
-               plate.width / plate.spacing, plate.height / plate.spacing, 1e3 * plate.spacing,
-               1e3 * plate.padding, c.holes.count, (long long)c.pores.count);
-        return 0;
-    }
-    struct kr_case_hole *hole = kr_case_holes(&c, &plate.n_holes);
-    plate.hole = hole;
-    struct kr_mesh *mesh = c.depth > 0 ? mesh_block(&plate, &c, deck) : mesh_plate(&plate);
+    struct kr_mesh *mesh = mesh_case(&arguments, &c, deck);
     char *path = kr_case_file(&c, "plate.msh");
-    kr_pieces_cut(mesh);
-    kr_mesh_write_msh(mesh, path);
-    kr_say("  wrote %s", path);
-
+    if (arguments.explain) {
+        explain_memory();
+    } else {
+        kr_mesh_write_msh(mesh, path);
+        kr_say("  wrote %s", path);
+    }
     kr_free(path);
     kr_mesh_free(mesh);
-    kr_free(hole);
     kr_deck_close(deck);
     kr_free(arguments.set);
     kr_free(arguments.left);

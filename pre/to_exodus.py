@@ -10,14 +10,9 @@ block 1.
 import re
 import sys
 
-try:
-    import h5py
-    import netCDF4
-    import numpy as np
-except ImportError as error:
-    print(f"Error: {error.name} is missing; on Debian: apt-get install "
-          "python3-h5py python3-netcdf4", file=sys.stderr)
-    sys.exit(1)
+import h5py
+import netCDF4
+import numpy as np
 
 
 def text(nc, name, rows, values):

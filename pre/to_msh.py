@@ -45,11 +45,8 @@ def main():
             stop("the file holds no cells")
         else:
             write_msh(target, body)
-    except ImportError as error:
-        package = {"meshio": "python3-meshio", "netCDF4": "python3-netcdf4"}.get(error.name, error.name)
-        stop(f"{error.name} is missing; on Debian: apt-get install {package}")
-    except (MemoryError, KeyboardInterrupt):
-        raise
+    except (ImportError, MemoryError, KeyboardInterrupt):
+        raise  # kirsch-nodes tells what a failed import says, and what to install
     except Exception as error:  # whatever a broken file provokes in meshio, in one sentence
         words = " ".join(str(error).split())[:200]
         stop(f"the file cannot be read: {type(error).__name__}: {words}")

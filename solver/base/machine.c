@@ -45,6 +45,11 @@ double kr_machine_peak(void) {
     return 1024 * kib;
 }
 
+double kr_machine_peak_of_children(void) {
+    struct rusage used;
+    return getrusage(RUSAGE_CHILDREN, &used) ? 0 : 1024.0 * (double)used.ru_maxrss;
+}
+
 void kr_machine_need(double bytes, const char *what) {
     const double gib = 1073741824, there = kr_machine_memory();
     if (bytes > there)

@@ -13,6 +13,9 @@ double kr_machine_memory(void);
  *  tell. */
 double kr_machine_peak(void);
 
+/** The same of the largest child that has ended; 0 if there was none. */
+double kr_machine_peak_of_children(void);
+
 /** Stop (exit 6) if `bytes`, which `what` cannot do with less than, are more than kr_machine_memory(). To be asked
  *  before they are allocated. what: such as "12000 nodes". */
 void kr_machine_need(double bytes, const char *what);

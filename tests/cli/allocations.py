@@ -71,6 +71,7 @@ step = max(1, last // runs) if runs else 1
 tried = range(random.randint(1, step), last + 1, step)
 for n in tried:
     check(n)
-print(f"# figure {os.path.basename(command[0])}: {len(tried)} of its {last} allocations failed in turn, from {tried[0]} on")
+program = os.path.basename(next(word for word in command if os.path.basename(word).startswith("kirsch-")))
+print(f"# figure {program}: {len(tried)} of its {last} allocations failed in turn, from {tried[0]} on")
 shutil.rmtree(WHOLE)
 shutil.rmtree(WHOLE + "-now", ignore_errors=True)
