@@ -4,6 +4,7 @@
 The frame with its axes and colour bars is drawn once; each output only pastes its pixels into it,
 so that the time goes into reading and encoding.
 """
+import os
 import subprocess
 
 import numpy as np
@@ -102,7 +103,7 @@ def film(case, names, file):
     command = ["ffmpeg", "-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24",
                "-s", "%dx%d" % (columns, rows), "-r", "%.3f" % rate, "-i", "-", "-an",
                "-c:v", "libx264", "-preset", "veryfast", "-crf", "18", "-pix_fmt", "yuv420p",
-               "-movflags", "+faststart", path]
+               "-movflags", "+faststart", "-f", "mp4", path + ".tmp"]
     try:
         process = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE)
     except OSError as fault:
@@ -117,6 +118,7 @@ def film(case, names, file):
     if process.returncode != 0:
         warn("no film: ffmpeg failed: %s" % (said[-1] if said else process.returncode))
         return None
+    os.replace(path + ".tmp", path)  # killed before, ffmpeg would end a shorter film that looks like a whole one
     return path
 
 
