@@ -103,12 +103,17 @@ draws_the_tree() { plot tree && is_png tree 10000; }
 # A film and a picture that are not done: nothing stands under their names but what stood there before.
 killed_film() {
     mkdir -p "$work/odd" && mkdir -p "$run/pictures" && echo before >"$run/pictures/crack.mp4" || return
-    printf '#!/bin/sh\nfor last; do :; done\necho half >"$last"\nkill -9 $PPID\ncat >/dev/null\necho more >>"$last"\necho >"%s"\n' \
-        "$work/odd/done" >"$work/odd/ffmpeg" && chmod +x "$work/odd/ffmpeg"
+    printf '#!/bin/sh\nfor last; do :; done\necho half >"$last"\necho $$ >"%s"\nkill -9 $PPID\nexec sleep 600\n' \
+        "$work/odd/pid" >"$work/odd/ffmpeg" && chmod +x "$work/odd/ffmpeg"
     env PATH="$work/odd:$PATH" "$build/kirsch-plot" --output "$run" "$run/case.yaml" crack
     [ $? = 137 ] || return
-    until [ -e "$work/odd/done" ]; do sleep 0.02; done
-    [ "$(cat "$run/pictures/crack.mp4")" = before ]
+    [ "$(cat "$run/pictures/crack.mp4")" = before ] || return
+    for wait in $(seq 200); do # ffmpeg is ended with the program that feeds it
+        kill -0 "$(cat "$work/odd/pid")" 2>/dev/null || return 0
+        sleep 0.05
+    done
+    kill -9 "$(cat "$work/odd/pid")"
+    return 1
 }
 picture_on_a_full_disk() {
     mkdir -p "$run/pictures" && echo before >"$run/pictures/tip.png" &&
