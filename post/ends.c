@@ -1,14 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * How legs start and end, and what energy they took: the last two steps of legs.h.
+ * How legs start and end: kr_legs_tell_ends of legs.h.
  */
 #include "legs.h"
 
-#include <math.h>
-#include <stdlib.h>
-
-#include "base/error.h"
-#include "base/memory.h"
 #include "rims.h"
 
 #define NONE KR_FRONT_NONE

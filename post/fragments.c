@@ -7,9 +7,7 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "base/error.h"
 #include "base/h5.h"
 #include "base/memory.h"
 #include "search.h"
@@ -85,24 +83,18 @@ static void join_node(struct bonds *bonds, size_t i, const int *near, size_t cou
 static void join_all(struct bonds *bonds) {
     const struct kr_record *record = bonds->record;
     double largest = 0, reach;
-    size_t room = 256;
-    int *near = KR_NEW(int, room);
+    struct kr_found found = {0};
     struct kr_search *search;
     for (size_t i = 0; i < record->n; i++)
         largest = fmax(largest, bonds->size[i]);
     reach = kr_weight_reach(bonds->partial_volume, record->horizon, largest);
     search = kr_search_create(record->dim, record->n, record->position, reach);
     for (size_t i = 0; i < record->n; i++) {
-        size_t count = kr_search_near(search, i, near, room);
-        if (count > room) {
-            room = 2 * count;
-            near = kr_realloc(near, room, sizeof *near);
-            count = kr_search_near(search, i, near, room);
-        }
-        join_node(bonds, i, near, count);
+        kr_search_find(search, i, &found);
+        join_node(bonds, i, found.near, found.count);
     }
     kr_search_free(search);
-    kr_free(near);
+    kr_free(found.near);
 }
 
 static struct bonds bonds_of(const struct kr_record *record, const struct kr_case *c,

@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
 #include "base/memory.h"
 #include "search.h"
 
@@ -46,23 +45,18 @@ static void collect(struct kr_front *front) {
 
 static void find_neighbours(struct kr_front *front) {
     struct kr_search *search = kr_search_create(3, front->n, front->x, front->reach);
-    size_t room = 0, count = 0, most = 64;
-    int *found = KR_NEW(int, most);
+    struct kr_found found = {0};
+    size_t room = 0, count = 0;
     front->first = KR_NEW(size_t, front->n + 1);
     for (size_t i = 0; i < front->n; i++) {
-        size_t more = kr_search_near(search, i, found, most);
-        if (more > most) {
-            most = 2 * more;
-            found = kr_realloc(found, most, sizeof *found);
-            more = kr_search_near(search, i, found, most);
-        }
-        for (size_t k = 0; k < more; k++) {
+        kr_search_find(search, i, &found);
+        for (size_t k = 0; k < found.count; k++) {
             KR_GROW(front->near, count, room);
-            front->near[count++] = found[k];
+            front->near[count++] = found.near[k];
         }
         front->first[i + 1] = count;
     }
-    kr_free(found);
+    kr_free(found.near);
     kr_search_free(search);
 }
 

@@ -6,8 +6,7 @@ from matplotlib.collections import LineCollection
 
 from maps import outline_material, paint, panels, save, show
 from results import Nothing, read_csv
-from shape import AXES
-from style import WISH
+from shape import AXES, plane
 
 
 def curves(table, axes, far):
@@ -29,20 +28,12 @@ def front(case):
     if not len(table["time"]):
         raise Nothing("there is no crack front in %s" % case.path("front.csv"))
     place = 1e3 * np.stack([table[a] for a in AXES])
-    if not WISH["plane"]:  # across the direction in which the fronts reach least
-        axis = int(np.ptp(place, axis=1).argmin())
-        WISH["plane"] = axis, float(np.median(place[axis]))
-        case.rasters.clear()
-        try:
-            return draw(case, table)
-        finally:
-            WISH["plane"] = None
-            case.rasters.clear()
-    return draw(case, table)
+    axis = int(np.ptp(place, axis=1).argmin())  # the direction in which the fronts reach least
+    return draw(case.seen_in((axis, float(np.median(place[axis])))), table)
 
 
 def draw(case, table):
-    axis, level = WISH["plane"]
+    axis, level = plane(case)
     ways, times = curves(table, [a for a in range(3) if a != axis], 3 * case.cells()[4])
     figure, (axes,), bar, pixels = panels(case, 1)
     painted = paint(case, case.field(case.steps()[0][-1], "Damage"), pixels)

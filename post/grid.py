@@ -5,7 +5,7 @@ from matplotlib.collections import LineCollection, PolyCollection
 
 from maps import save
 from results import Fault
-from section import cells_across, cut_faces, cut_tetrahedra, pieces
+from section import cut_cells
 from shape import AXES, plane_of
 from style import plt
 
@@ -45,8 +45,7 @@ class Choice:
             self.name += "_" + AXES[self.axis]
 
 
-def grid(case, choice=None):
-    choice = choice or Choice(case)
+def grid(case, choice):
     middle, half = close_up(case, choice)
     draw = flat if len(middle) == 2 else section
     if len(middle) == 2 and choice.level is not None:
@@ -86,22 +85,14 @@ def frame(axes, middle, half, shown):
 # ---- solids ------------------------------------------------------------------------------------
 
 def section(case, choice, middle, half, axes):
-    point, first, vertex, volume, spacing = case.cells()
-    axis = choice.axis
-    shown = [d for d in range(3) if d != axis]
-    level = middle[axis] if choice.level is None else choice.level
-    height = point[:, axis] - level - 1e-6 * spacing  # no corner lies in the plane itself
-    seen = cells_across(point, first, vertex, height, middle, half + 2 * spacing, shown)
-    if not len(seen):
-        raise Fault("the plane %s = %.4g mm cuts no cell there" % (AXES[axis], level))
-    solids, owners, faces = pieces(first, vertex, seen)
-    polygons, of = cut_tetrahedra(point, height, solids, owners, shown)
+    volume, spacing = case.cells()[3:]
+    axis, level = choice.axis, middle[choice.axis] if choice.level is None else choice.level
+    polygons, of, lines, count = cut_cells(case.cells(), (axis, level), middle, half + 2 * spacing)
     sizes = volume[of] * 1e3 / spacing**3  # the file's mm^2 are m^3 times 1e6
     cells = PolyCollection(polygons, array=sizes, cmap="YlGnBu", linewidth=0.6, edgecolor="face")
     axes.add_collection(colour(cells, sizes))
-    axes.add_collection(LineCollection(cut_faces(point, height, faces, shown), colors="0.25",
-                                       linewidths=0.3))
-    frame(axes, middle, half, shown)
+    axes.add_collection(LineCollection(lines, colors="0.25", linewidths=0.3))
+    frame(axes, middle, half, [d for d in range(3) if d != axis])
     axes.set_title("%d cells, %d in the plane %s = %.4g mm; spacing %.4g mm"
-                   % (len(volume), len(seen), AXES[axis], level, spacing))
+                   % (len(volume), count, AXES[axis], level, spacing))
     return cells, "volume of a cell / spacing³"

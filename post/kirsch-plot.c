@@ -34,8 +34,14 @@ static const char usage[] =
     "kirsch-plot compare FOLDER FOLDER [--field NAME] [--at TIME]\n"
     "                     two runs and their difference, at the output nearest to TIME in us";
 
-/** Replace this program by Python with these words. */
-_Noreturn static void become_python(char **word) {
+/* Words before those for plot.py; -B: no compiled files are left in the installation. */
+enum { COMMAND = 3 };
+
+/** Replace this program by plot.py; word has room for COMMAND words before its own. */
+static _Noreturn void become_script(char **word) {
+    word[0] = PYTHON;
+    word[1] = "-B";
+    word[2] = kr_child_script("plot.py");
     execv(PYTHON, word);
     kr_stop(KR_EXIT_LIBRARY,
             "cannot start " PYTHON ": %s; pictures need, on Debian: apt-get install python3 python3-numpy "
@@ -43,14 +49,11 @@ _Noreturn static void become_python(char **word) {
             strerror(errno));
 }
 
-/** Replace this program: plot.py compare FOLDER FOLDER; it needs no deck. */
-static void compare(int argc, char **argv) {
-    char **word = KR_NEW(char *, (size_t)argc + 4);
-    word[0] = PYTHON;
-    word[1] = "-B";
-    word[2] = kr_child_script("plot.py");
-    memcpy(word + 3, argv + 1, (size_t)(argc - 1) * sizeof *word);
-    become_python(word);
+/** plot.py compare FOLDER FOLDER; it needs no deck. */
+static _Noreturn void compare(int argc, char **argv) {
+    char **word = KR_NEW(char *, COMMAND + (size_t)argc);
+    memcpy(word + COMMAND, argv + 1, (size_t)(argc - 1) * sizeof *word);
+    become_script(word);
 }
 
 /** Radius [m] of a ball around a void; 0 where only its file knows. */
@@ -68,18 +71,13 @@ static double void_reach(const struct kr_case_void *hollow) {
     return 0;
 }
 
-/** Replace this program: plot.py FOLDER PICTURE... --disc x,y,radius... --ball x,y,z,radius... (in m) */
-static void hand_over(const struct kr_case *c, const struct kr_case_arguments *arguments) {
-    size_t n_holes, n_voids, n = 0;
+/** plot.py FOLDER --disc x,y,radius... --ball x,y,z,radius... (in m) PICTURE... */
+static _Noreturn void hand_over(const struct kr_case *c, const struct kr_case_arguments *arguments) {
+    size_t n_holes, n_voids, n = COMMAND;
     struct kr_case_hole *hole = kr_case_holes(c, &n_holes);
     struct kr_case_void *hollow = kr_case_voids(c, &n_voids);
-    char **word = KR_NEW(char *, 6 + arguments->n_left + 2 * (n_holes + n_voids));
-    word[n++] = PYTHON;
-    word[n++] = "-B"; /* leaves no compiled files in the installation */
-    word[n++] = kr_child_script("plot.py");
+    char **word = KR_NEW(char *, COMMAND + 2 + arguments->n_left + 2 * (n_holes + n_voids));
     word[n++] = (char *)c->folder;
-    for (size_t k = 0; k < arguments->n_left; k++)
-        word[n++] = (char *)arguments->left[k];
     for (size_t k = 0; k < n_holes; k++) {
         double centre[2], radius = kr_case_hole_reach(&hole[k], centre);
         word[n++] = "--disc";
@@ -91,7 +89,10 @@ static void hand_over(const struct kr_case *c, const struct kr_case_arguments *a
         word[n++] = kr_text("%.17g,%.17g,%.17g,%.17g", centre[0], centre[1], centre[2],
                             void_reach(&hollow[k]));
     }
-    become_python(word);
+    /* Last, so that an option without its value is seen to have none. */
+    for (size_t k = 0; k < arguments->n_left; k++)
+        word[n++] = (char *)arguments->left[k];
+    become_script(word);
 }
 
 int main(int argc, char **argv) {

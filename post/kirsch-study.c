@@ -3,11 +3,9 @@
  * kirsch-study: one deck many times, with other pores, loads or whatever else a table says; ends
  * with one table of results and pictures of all.
  */
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "base/child.h"
 #include "base/error.h"

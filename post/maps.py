@@ -135,7 +135,8 @@ class Field:
         step = case.steps()[0][-1]
         there = list(case.run()["step"][step])
         if self.name not in there:
-            raise Fault("unknown field `%s`; the run has %s" % (name, ", ".join(there)))
+            raise Fault("unknown field `%s`; the run has %s, as output.fields of the deck tells"
+                        % (name, ", ".join(there)))
         shape = case.run()["step"][step][self.name].shape
         self.parts = COMPONENTS.get(shape[1], []) if len(shape) > 1 else []
         if self.part not in [""] + self.parts or (len(self.parts) == 6 and not self.part):

@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of a case: plot.py FOLDER [PICTURE...] [--disc X,Y,RADIUS]... [--ball X,Y,Z,RADIUS]...
-(metres: the case's holes and voids in their order) [--hole N] [--void N] [--slice 'z=2 mm']
+(metres: the case's holes and voids in their order), and the options that kirsch-plot tells of; plot.py compare
+FOLDER FOLDER; plot.py study FOLDER.
 
-Started by kirsch-plot. It draws and computes nothing mechanical. A picture whose files are missing
+Started by kirsch-plot and kirsch-study. It draws and computes nothing mechanical. A picture whose files are missing
 is told and left out; the others are drawn all the same.
 """
 import os
@@ -28,7 +29,7 @@ except ImportError as missing:
     sys.exit(5)
 
 PICTURES = {
-    "grid": grid.grid,
+    "grid": None,  # see prepare()
     "damage": maps.maps_of("Damage", "damage"),
     "energy": maps.maps_of("Stored_Elastic_Energy_Density", "energy"),
     "speed": curves.speed,
@@ -44,73 +45,78 @@ OF_PLATES = ["grid", "damage", "energy", "speed", "tip", "tree", "history", "cra
 OF_SOLIDS = ["grid", "damage", "energy", "front", "history", "crack"]
 
 
-def numbers(option, word, count):
-    """Finite numbers between commas."""
+# Options, each with a value behind it as this one.
+OPTIONS = {"--format": "svg", "--dpi": "150", "--limits": "0,0.5", "--scale": "20", "--field": "Velocity.x", "--at": "40",
+           "--hole": "1", "--void": "1", "--slice": "'z=2 mm'", "--disc": "0,0,0.001", "--ball": "0,0,0,0.001"}
+
+
+def sort_out(words):
+    """The words that are no options, and the values of each option."""
+    names, given, words = [], {option: [] for option in OPTIONS}, list(words)
+    while words:
+        word = words.pop(0)
+        if not word.startswith("--"):
+            names.append(word)
+        elif word not in OPTIONS:
+            raise Fault("unknown option `%s`; see kirsch-plot --help" % word)
+        elif not words:
+            raise Fault("%s: expected a value behind it, as %s %s" % (word, word, OPTIONS[word]))
+        else:
+            given[word].append(words.pop(0))
+    return names, given
+
+
+def numbers(option, word, expected):
+    """Finite numbers between commas, as many as there are words in what is expected."""
     try:
         values = [float(x) for x in word.split(",")]
     except ValueError:
         values = []
-    if len(values) != count or not np.isfinite(values).all():
-        raise Fault("%s: found `%s`, expected %s" % (option, word, ("a number", "lowest,highest")[count - 1]))
+    if len(values) != len(expected.split(",")) or not np.isfinite(values).all():
+        raise Fault("%s: found `%s`, expected %s, as %s" % (option, word, expected, OPTIONS[option]))
     return values
 
 
-def take_wishes(words):
-    """Take what holds for all pictures off the command line; returns the rest."""
-    rest, words = [], list(words)
-    while words:
-        word = words.pop(0)
-        if word not in ("--format", "--dpi", "--limits", "--scale") or not words:
-            rest.append(word)
-            continue
-        value = words.pop(0)
-        if word == "--format":
-            if value not in ("png", "svg", "pdf"):
-                raise Fault("--format: found `%s`, expected png, svg or pdf" % value)
-            WISH["format"] = value
-        elif word == "--dpi":
-            WISH["dpi"], = numbers(word, value, 1)
-            if not 20 <= WISH["dpi"] <= 2400:
-                raise Fault("--dpi: found `%s`, expected 20 to 2400" % value)
-        elif word == "--scale":
-            WISH["scale"], = numbers(word, value, 1)
-        else:
-            WISH["limits"] = numbers(word, value, 2)
-            if not WISH["limits"][0] < WISH["limits"][1]:
-                raise Fault("--limits: found `%s`, expected the lower one first" % value)
-    return rest
+def take_wishes(given):
+    """What holds for all pictures."""
+    for word in given["--format"]:
+        if word not in ("png", "svg", "pdf"):
+            raise Fault("--format: found `%s`, expected png, svg or pdf" % word)
+        WISH["format"] = word
+    for word in given["--dpi"]:
+        WISH["dpi"], = numbers("--dpi", word, "a number")
+        if not 20 <= WISH["dpi"] <= 2400:
+            raise Fault("--dpi: found `%s`, expected 20 to 2400" % word)
+    for word in given["--scale"]:
+        WISH["scale"], = numbers("--scale", word, "a number")
+    for word in given["--limits"]:
+        WISH["limits"] = numbers("--limits", word, "lowest,highest")
+        if not WISH["limits"][0] < WISH["limits"][1]:
+            raise Fault("--limits: found `%s`, expected the lower one first" % word)
+    for word in given["--slice"]:
+        WISH["plane"] = shape.plane_of(word)
 
 
-def arguments(words):
-    """Folder, names of pictures, holes, voids, and what of the grid is asked for."""
-    folder, names, round_ones, wanted, fields = None, [], {"--disc": [], "--ball": []}, {}, []
-    words = list(words)
-    while words:
-        word = words.pop(0)
-        if word in round_ones and words:
-            round_ones[word].append(tuple(float(x) for x in words.pop(0).split(",")))
-        elif word in ("--hole", "--void", "--slice") and words:
-            wanted["cut" if word == "--slice" else word[2:]] = words.pop(0)
-            if word == "--slice":
-                WISH["plane"] = shape.plane_of(wanted["cut"])
-        elif word == "--field" and words:
-            fields.append(words.pop(0))
-        elif folder is None:
-            folder = word
-        elif word in PICTURES or word == "film":
-            names.append(word)
-        else:
-            raise Fault("unknown picture `%s`; there are %s" % (word, ", ".join(list(PICTURES) + ["film"])))
-    if folder is None:
-        raise Fault("the folder of the case is missing")
-    of = movie.film_of if "film" in names else maps.maps_of
-    names = [name for name in names if name != "film"] + fields
-    if of is movie.film_of and not fields:
+def case_of(folder, given):
+    discs = [numbers("--disc", word, "x,y,radius") for word in given["--disc"]]
+    balls = [numbers("--ball", word, "x,y,z,radius") for word in given["--ball"]]
+    return Case(folder, discs, balls)
+
+
+def prepare(names, given):
+    """Make the pictures that hang on options drawable by name; returns the names of those asked for."""
+    of_grid = {name: given["--" + option][-1] for name, option in (("hole", "hole"), ("void", "void"), ("cut", "slice"))
+               if given["--" + option]}
+    PICTURES["grid"] = lambda case: grid.grid(case, grid.Choice(case, **of_grid))
+    film = "film" in names
+    if film and not given["--field"]:
         raise Fault("film: expected the field to be filmed, as film --field Velocity")
-    PICTURES.update({name: of(name) for name in fields})
-    if wanted and not names:
-        names = ["grid"]
-    return folder, names, round_ones["--disc"], round_ones["--ball"], wanted
+    for name in names:
+        if name not in PICTURES and name != "film":
+            raise Fault("unknown picture `%s`; there are %s" % (name, ", ".join(list(PICTURES) + ["film"])))
+    PICTURES.update({name: (movie.film_of if film else maps.maps_of)(name) for name in given["--field"]})
+    names = [name for name in names if name != "film"] + given["--field"]
+    return names or (["grid"] if of_grid else [])
 
 
 def draw_all(case, names):
@@ -134,18 +140,17 @@ def draw_all(case, names):
 
 def main():
     try:
-        words = take_wishes(sys.argv[1:])
-        if words[:1] == ["study"]:
-            study.draw(words[1])
-            return
-        if words[:1] == ["compare"]:
-            compare.draw(words[1:])
-            return
-        folder, names, holes, voids, wanted = arguments(words)
-        case = Case(folder, holes, voids)
-        PICTURES["grid"] = lambda case: grid.grid(case, grid.Choice(case, **wanted))
-        if not draw_all(case, names or (OF_SOLIDS if shape.is_solid(case) else OF_PLATES)):
-            sys.exit(2)
+        names, given = sort_out(sys.argv[1:])
+        take_wishes(given)
+        if names[:1] == ["study"]:
+            study.draw(names[1])
+        elif names[:1] == ["compare"]:
+            compare.draw(names[1:], (given["--field"] or ["Damage"])[-1],
+                         numbers("--at", given["--at"][-1], "a time in us")[0] if given["--at"] else None)
+        else:
+            case, wanted = case_of(names[0], given), prepare(names[1:], given)
+            if not draw_all(case, wanted or (OF_SOLIDS if shape.is_solid(case) else OF_PLATES)):
+                sys.exit(2)
     except Fault as fault:
         print("kirsch-plot: %s" % fault, file=sys.stderr)
         sys.exit(2)

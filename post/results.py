@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Read what the other programs left in a case's folder (docs/formats.md)."""
+import copy
 import csv
 import os
 import sys
@@ -67,10 +68,17 @@ class Case:
         self.voids = [tuple(1e3 * x for x in void) for void in voids]
         self.summary = read_summary(self.path("summary.csv"))
         self.rasters = {}  # of the whole plate, by their width in pixels
+        self.plane = None  # axis and level [mm] of maps of a solid, unless the command line tells
         self._cells = self._run = None
 
     def path(self, name):
         return os.path.join(self.folder, name)
+
+    def seen_in(self, plane):
+        """The same case, its maps in another plane."""
+        seen = copy.copy(self)
+        seen.plane, seen.rasters = plane, {}
+        return seen
 
     def cells(self):
         """Points [mm], first, vertex, area [mm^2], spacing [mm]."""

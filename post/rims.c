@@ -12,13 +12,12 @@
 struct kr_rims {
     const struct kr_front *front;
     size_t n;
-    double *x; /* (n x 3) m: a place of the front, then the nodes of the rims */
+    double *x; /* (n x 3) m: the nodes of the front, which are asked for, then those of the rims */
     int *rim;  /* (n) */
     int *found;
     struct kr_search *search;
 };
 
-/** Rim nodes and the nodes asked for in one search: asked nodes stand first. */
 struct kr_rims *kr_rims_create(const struct kr_front *front) {
     const struct kr_record *record = front->record;
     struct kr_rims *rims = KR_NEW(struct kr_rims, 1);
@@ -72,13 +71,10 @@ int kr_rims_nearest(const struct kr_rims *rims, const size_t *node, size_t count
 }
 
 size_t kr_rims_damage(const struct kr_rims *rims, size_t node, const int **found) {
-    size_t count = kr_search_near(rims->search, node, rims->found, rims->n), kept = 0;
-    for (size_t f = 0; f < count; f++) {
-        size_t j = (size_t)rims->found[f];
-        if (rims->rim[j] != KR_RIM_NONE)
+    size_t count = kr_search_near(rims->search, node, rims->found, rims->n);
+    for (size_t f = 0; f < count; f++)
+        if (rims->rim[rims->found[f]] != KR_RIM_NONE)
             return KR_FRONT_NONE;
-        rims->found[kept++] = rims->found[f];
-    }
     *found = rims->found;
-    return kept;
+    return count;
 }

@@ -2,6 +2,8 @@
 """What a plane cuts of the cells of a solid: each cell is taken apart into tetrahedra."""
 import numpy as np
 
+from results import Fault
+
 # Solids of few corners as tetrahedra, and their faces; the order is VTK's.
 TETRAHEDRA = {
     "tetrahedron": [[0, 1, 2, 3]],
@@ -17,6 +19,21 @@ FACES = {
 }
 KINDS = {4: "tetrahedron", 10: "tetrahedron", 5: "pyramid", 13: "pyramid", 6: "wedge", 15: "wedge",
          8: "hexahedron", 20: "hexahedron"}
+
+
+def cut_cells(cells, plane, middle, reach):
+    """What a plane (axis, level) cuts of all cells (Case.cells) within the reach of the middle: polygons (corners
+    x 2), the cell that each is of, lines in which it cuts faces, and how many cells."""
+    point, first, vertex, _, spacing = cells
+    axis, level = plane
+    shown = [d for d in range(3) if d != axis]
+    height = point[:, axis] - level - 1e-6 * spacing  # no corner lies in the plane itself
+    seen = cells_across(point, first, vertex, height, middle, reach, shown)
+    if not len(seen):
+        raise Fault("the plane %s = %.4g mm cuts no cell there" % ("xyz"[axis], level))
+    solids, owners, faces = pieces(first, vertex, seen)
+    polygons, of = cut_tetrahedra(point, height, solids, owners, shown)
+    return polygons, of, cut_faces(point, height, faces, shown), len(seen)
 
 
 def cells_across(point, first, vertex, height, middle, reach, shown):

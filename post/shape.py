@@ -4,7 +4,7 @@ plane cuts of the cells of a solid."""
 import numpy as np
 
 from results import Fault
-from section import cells_across, cut_tetrahedra, pieces
+from section import cut_cells
 from style import WISH
 
 AXES = "xyz"
@@ -27,9 +27,9 @@ def is_solid(case):
 
 
 def plane(case):
-    """Axis and level [mm] of the plane that maps of a solid lie in: the wish, or half the depth."""
+    """Axis and level [mm] of the plane that maps of a solid lie in: the wish, the case's, or half the depth."""
     lower, upper = case.box()
-    return WISH["plane"] or (2, float(lower[2] + upper[2]) / 2)
+    return WISH["plane"] or case.plane or (2, float(lower[2] + upper[2]) / 2)
 
 
 def shown(case):
@@ -91,16 +91,8 @@ def moved(case, step):
 def section(case):
     """What the plane cuts of a solid; found once."""
     if "section" not in case.rasters:
-        point, first, vertex, _, spacing = case.cells()
-        axis, level = plane(case)
         lower, upper = case.box()
-        height = point[:, axis] - level - 1e-6 * spacing  # no corner lies in the plane itself
-        seen = cells_across(point, first, vertex, height, (lower + upper) / 2,
-                            (upper - lower).max(), shown(case))
-        if not len(seen):
-            raise Fault("the plane %s = %.4g mm cuts no cell" % (AXES[axis], level))
-        solids, owners, _ = pieces(first, vertex, seen)
-        polygons, of = cut_tetrahedra(point, height, solids, owners, shown(case))
+        polygons, of, _, _ = cut_cells(case.cells(), plane(case), (lower + upper) / 2, (upper - lower).max())
         corners = np.concatenate([counter_clockwise(p) for p in polygons])
         ends = np.concatenate([[0], np.cumsum([len(p) for p in polygons])])
         case.rasters["section"] = corners, ends, np.arange(len(corners)), of

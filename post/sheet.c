@@ -64,7 +64,7 @@ static void rotate(double m[3][3], double v[3][3], int p, int q) {
 static void least_direction(double moment[3][3], double normal[3]) {
     double v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     int least = 0;
-    for (int round = 0; round < 12; round++) {
+    for (int round = 0; round < 12; round++) { /* converges quadratically: a few would do */
         rotate(moment, v, 0, 1);
         rotate(moment, v, 0, 2);
         rotate(moment, v, 1, 2);
@@ -103,31 +103,33 @@ static void lay_plane(const struct kr_front *front, size_t i, const int *near, s
 
 /* ---- widths ------------------------------------------------------------------------------ */
 
-/** Sums over the disc around a patch: of damaged nodes, and of all. */
+/** Sums over the disc around a patch. */
+enum whose { DAMAGED, BODY, WHOSE };
 struct disc {
-    double volume[2], mean[2][3];
+    double volume[WHOSE], mean[WHOSE][3];
 };
 
-static void add_to_disc(struct disc *disc, int which, const struct kr_patch *patch, const double *x,
-                        double volume, double horizon) {
+static void add_to_disc(struct disc *disc, enum whose whose, const struct kr_patch *patch,
+                        const double *x, double volume, double horizon) {
     double d[3] = {x[0] - patch->x[0], x[1] - patch->x[1], x[2] - patch->x[2]}, across, r, w;
     across = d[0] * patch->normal[0] + d[1] * patch->normal[1] + d[2] * patch->normal[2];
     r = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - across * across) / (horizon * horizon);
     if (r >= 1 || fabs(across) >= horizon)
         return;
-    w = (1 - r) * (1 - r) * volume * (which ? 1 - fabs(across) / horizon : 1);
-    disc->volume[which] += w;
+    w = (1 - r) * (1 - r) * volume * (whose == BODY ? 1 - fabs(across) / horizon : 1);
+    disc->volume[whose] += w;
     for (int a = 0; a < 3; a++)
-        disc->mean[which][a] += w * (d[a] - across * patch->normal[a]);
+        disc->mean[whose][a] += w * (d[a] - across * patch->normal[a]);
 }
 
 /** The width at a patch; returns whether its disc is cut off by the front. */
 static int measure_width(const struct kr_record *record, const struct disc *disc,
                          struct kr_patch *patch) {
     double square = 0;
-    patch->width = record->horizon * disc->volume[0] / disc->volume[1];
+    patch->width = record->horizon * disc->volume[DAMAGED] / disc->volume[BODY];
     for (int a = 0; a < 3; a++) {
-        double off = disc->mean[0][a] / disc->volume[0] - disc->mean[1][a] / disc->volume[1];
+        double off = disc->mean[DAMAGED][a] / disc->volume[DAMAGED] -
+                     disc->mean[BODY][a] / disc->volume[BODY];
         square += off * off;
     }
     return square > CUT_OFF * CUT_OFF * record->horizon * record->horizon;
@@ -140,37 +142,19 @@ static struct disc look_around(const struct kr_record *record, const struct kr_p
     for (size_t k = 0; k <= count; k++) {
         size_t j = k < count ? (size_t)near[k] : i;
         if (!isinf(record->damage_time[j]))
-            add_to_disc(&disc, 0, patch, record->position + 3 * j, record->volume[j],
+            add_to_disc(&disc, DAMAGED, patch, record->position + 3 * j, record->volume[j],
                         record->horizon);
-        add_to_disc(&disc, 1, patch, record->position + 3 * j, record->volume[j], record->horizon);
+        add_to_disc(&disc, BODY, patch, record->position + 3 * j, record->volume[j],
+                    record->horizon);
     }
     return disc;
 }
 
-/** What is near point i, in an array that grows. */
-struct finder {
-    struct kr_search *search;
-    int *near;
-    size_t room, count;
-};
-
-static void find(struct finder *finder, size_t i) {
-    finder->count = kr_search_near(finder->search, i, finder->near, finder->room);
-    if (finder->count <= finder->room)
-        return;
-    finder->room = 2 * finder->count;
-    finder->near = kr_realloc(finder->near, finder->room, sizeof *finder->near);
-    finder->count = kr_search_near(finder->search, i, finder->near, finder->room);
-}
-
-static void forget(struct finder *finder) {
-    kr_search_free(finder->search);
-    kr_free(finder->near);
-}
-
 /** Where the front cuts a disc off, the mean width of patches within reach that are whole. */
-static void borrow_widths(struct kr_sheet *sheet, struct finder *damaged, const char *is_cut) {
+static void borrow_widths(struct kr_sheet *sheet, const struct kr_search *damaged,
+                          const char *is_cut) {
     const struct kr_front *front = sheet->front;
+    struct kr_found found = {0};
     double all = 0, whole = 0;
     for (size_t i = 0; i < front->n; i++)
         if (!is_cut[i]) {
@@ -181,10 +165,10 @@ static void borrow_widths(struct kr_sheet *sheet, struct finder *damaged, const 
         double sum = 0, count = 0;
         if (!is_cut[i])
             continue;
-        find(damaged, i);
-        for (size_t k = 0; k < damaged->count; k++)
-            if (!is_cut[damaged->near[k]]) {
-                sum += sheet->patch[damaged->near[k]].width;
+        kr_search_find(damaged, i, &found);
+        for (size_t k = 0; k < found.count; k++)
+            if (!is_cut[found.near[k]]) {
+                sum += sheet->patch[found.near[k]].width;
                 count++;
             }
         if (count > 0)
@@ -192,31 +176,34 @@ static void borrow_widths(struct kr_sheet *sheet, struct finder *damaged, const 
         else if (whole > 0)
             sheet->patch[i].width = all / whole;
     }
+    kr_free(found.near);
 }
 
 void kr_sheet_lay(struct kr_sheet *sheet) {
     const struct kr_front *front = sheet->front;
     const struct kr_record *record = front->record;
-    struct finder damaged = {kr_search_create(3, front->n, front->x, AROUND * record->horizon)};
-    struct finder body = {kr_search_create(3, record->n, record->position,
-                                           sqrt(2) * record->horizon + record->spacing)};
+    struct kr_search *damaged = kr_search_create(3, front->n, front->x, AROUND * record->horizon);
+    struct kr_search *body = kr_search_create(3, record->n, record->position,
+                                              sqrt(2) * record->horizon + record->spacing);
+    struct kr_found found = {0};
     char *is_cut = KR_NEW(char, front->n);
     for (size_t i = 0; i < front->n; i++) {
         struct kr_patch *patch = sheet->patch + i;
         struct disc disc;
-        find(&damaged, i);
-        lay_plane(front, i, damaged.near, damaged.count, patch);
-        find(&body, front->node[i]);
-        disc = look_around(record, patch, front->node[i], body.near, body.count);
+        kr_search_find(damaged, i, &found);
+        lay_plane(front, i, found.near, found.count, patch);
+        kr_search_find(body, front->node[i], &found);
+        disc = look_around(record, patch, front->node[i], found.near, found.count);
         is_cut[i] = (char)measure_width(record, &disc, patch);
     }
-    borrow_widths(sheet, &damaged, is_cut);
+    borrow_widths(sheet, damaged, is_cut);
     for (size_t i = 0; i < front->n; i++)
         if (front->time[i] >= 0)
             sheet->patch[i].area =
                 record->volume[front->node[i]] /
                 fmax(sheet->patch[i].width, cbrt(record->volume[front->node[i]]));
     kr_free(is_cut);
-    forget(&damaged);
-    forget(&body);
+    kr_free(found.near);
+    kr_search_free(damaged);
+    kr_search_free(body);
 }

@@ -84,22 +84,15 @@ void kr_sheet_time(struct kr_sheet *sheet) {
     const struct kr_front *front = sheet->front;
     struct kr_search *search =
         kr_search_create(3, front->n, front->x, WINDOW * front->record->horizon);
-    size_t room = 1024;
-    int *near = KR_NEW(int, room);
+    struct kr_found found = {0};
     for (size_t i = 0; i < front->n; i++) {
         struct kr_patch *patch = sheet->patch + i;
-        size_t count;
         patch->time = patch->speed = patch->error = NAN;
         if (front->time[i] < 0)
             continue;
-        count = kr_search_near(search, i, near, room);
-        if (count > room) {
-            room = 2 * count;
-            near = kr_realloc(near, room, sizeof *near);
-            count = kr_search_near(search, i, near, room);
-        }
-        time_patch(sheet, i, near, count, patch);
+        kr_search_find(search, i, &found);
+        time_patch(sheet, i, found.near, found.count, patch);
     }
-    kr_free(near);
+    kr_free(found.near);
     kr_search_free(search);
 }

@@ -8,7 +8,6 @@
 
 #include <math.h>
 
-#include "base/error.h"
 #include "base/memory.h"
 
 #define NONE KR_FRONT_NONE

@@ -5,7 +5,6 @@
 #include "study.h"
 
 #include <ctype.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/child.h"

@@ -31,13 +31,21 @@ double kr_cell_polygon(size_t n, const double *point, double centroid[2]) {
     return twice_area / 2;
 }
 
+double kr_cell_area(size_t n, const double *point) {
+    const double x0 = point[0], y0 = point[1];
+    double twice_area = 0;
+    for (size_t k = 1; k + 1 < n; k++)
+        twice_area += (point[2 * k] - x0) * (point[2 * k + 3] - y0) -
+                      (point[2 * k + 2] - x0) * (point[2 * k + 1] - y0);
+    return twice_area / 2;
+}
+
 static double triangle(const double *a, const double *b, const double *c) {
     return ((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])) / 2;
 }
 
 int kr_cell_is_sound(size_t n, const double *p) {
-    double centroid[2];
-    if (!(kr_cell_polygon(n, p, centroid) > 0))
+    if (!(kr_cell_area(n, p) > 0))
         return 0;
     if (n != 4)
         return 1;

@@ -20,6 +20,9 @@
  */
 double kr_cell_polygon(size_t n, const double *point, double centroid[2]);
 
+/** The same area alone: what tells which way round a polygon runs. */
+double kr_cell_area(size_t n, const double *point);
+
 /** Whether a polygon bounds a positive area. A quadrilateral that is not convex passes, one that
  *  crosses itself does not: then no diagonal cuts it into two positive triangles. */
 int kr_cell_is_sound(size_t n, const double *point);

@@ -8,20 +8,25 @@
 
 #include <string.h>
 
+/** The first room is not cleared: all of it is written, one item after the other. */
+static void *make_room(void *array, size_t count, size_t size) {
+    return array ? kr_realloc(array, count, size) : kr_alloc_raw(count, size);
+}
+
 void kr_gather_expect_nodes(struct kr_gather *gather, size_t count) {
     size_t room = gather->n_nodes + count;
     if (room <= gather->nodes_room || room <= gather->points_room)
         return;
     gather->nodes_room = gather->points_room = room;
-    gather->node = kr_realloc(gather->node, room, sizeof *gather->node);
-    gather->point = kr_realloc(gather->point, 3 * room, sizeof *gather->point);
+    gather->node = make_room(gather->node, room, sizeof *gather->node);
+    gather->point = make_room(gather->point, 3 * room, sizeof *gather->point);
 }
 
 static void set_pile_room(struct kr_pile *pile, size_t room) {
     pile->room = room;
-    pile->tag = kr_realloc(pile->tag, pile->room, sizeof *pile->tag);
-    pile->type = kr_realloc(pile->type, pile->room, sizeof *pile->type);
-    pile->first = kr_realloc(pile->first, pile->room, sizeof *pile->first);
+    pile->tag = make_room(pile->tag, pile->room, sizeof *pile->tag);
+    pile->type = make_room(pile->type, pile->room, sizeof *pile->type);
+    pile->first = make_room(pile->first, pile->room, sizeof *pile->first);
 }
 
 void kr_gather_expect_elements(struct kr_gather *gather, int type, size_t count) {
@@ -31,7 +36,7 @@ void kr_gather_expect_elements(struct kr_gather *gather, int type, size_t count)
         set_pile_room(pile, pile->count + count);
     if (pile->n_nodes + kind->nodes * count > pile->nodes_room) {
         pile->nodes_room = pile->n_nodes + kind->nodes * count;
-        pile->node = kr_realloc(pile->node, pile->nodes_room, sizeof *pile->node);
+        pile->node = make_room(pile->node, pile->nodes_room, sizeof *pile->node);
     }
 }
 

@@ -25,14 +25,14 @@ static size_t lay_cell(const struct kr_mesh *mesh, const struct kr_pile *pile, s
                        size_t *vertex) {
     const struct kr_element *kind = kr_element(pile->type[k]);
     const size_t *node = pile->node + pile->first[k];
-    double corner[2 * KR_MOST_FACE], centroid[2];
+    double corner[2 * KR_MOST_FACE];
     for (size_t v = 0; v < kind->kept; v++)
         vertex[v] = node[kind->keep[v]];
     if (kind->dim == 3)
         return kind->kept;
     for (size_t v = 0; v < kind->kept; v++)
         memcpy(corner + 2 * v, mesh->point + 3 * vertex[v], 2 * sizeof *corner);
-    if (kr_cell_polygon(kind->kept, corner, centroid) < 0)
+    if (kr_cell_area(kind->kept, corner) < 0)
         for (size_t v = 0; v < kind->kept; v++)
             vertex[v] = node[kind->keep[kind->kept - 1 - v]];
     return kind->kept;
@@ -43,8 +43,8 @@ static struct laid lay_cells(const struct kr_gather *gather, struct kr_mesh *mes
     size_t *order = kr_gather_order(gather, pile), *stands = kr_gather_merge(gather, mesh->dim);
     struct laid laid = {KR_NEW(size_t, pile->count), KR_NEW(size_t, pile->count)};
     mesh->first = kr_realloc(mesh->first, pile->count + 1, sizeof *mesh->first);
-    mesh->vertex = KR_NEW(size_t, pile->n_nodes);
-    mesh->cell_tag = KR_NEW(int64_t, pile->count);
+    mesh->vertex = KR_NEW_RAW(size_t, pile->n_nodes);
+    mesh->cell_tag = KR_NEW_RAW(int64_t, pile->count);
     for (size_t k = 0; k < pile->count; k++) {
         size_t e = order[k], c = mesh->n_cells;
         if (stands[e] != e)
@@ -140,7 +140,7 @@ static void lay_members(struct kr_mesh_group *group, const struct laid *laid) {
     size_t total = 0, n = 0;
     for (size_t k = 0; k < group->count; k++)
         total += laid->count[group->member[k]];
-    size_t *member = KR_NEW(size_t, total);
+    size_t *member = KR_NEW_RAW(size_t, total);
     for (size_t k = 0; k < group->count; k++)
         for (size_t i = 0; i < laid->count[group->member[k]]; i++)
             member[n++] = laid->first[group->member[k]] + i;
@@ -244,7 +244,7 @@ struct kr_mesh *kr_gather_finish(struct kr_gather *gather) {
     kr_gather_resolve(gather);
     mesh->n_points = gather->n_nodes;
     mesh->point = gather->point;
-    mesh->point_tag = KR_NEW(int64_t, mesh->n_points);
+    mesh->point_tag = KR_NEW_RAW(int64_t, mesh->n_points);
     for (size_t k = 0; k < gather->n_nodes; k++)
         mesh->point_tag[gather->node[k].place] = (int64_t)gather->node[k].tag;
     gather->point = NULL;

@@ -47,11 +47,26 @@ static size_t place_of(const struct kr_gather *gather, size_t tag) {
             "$Nodes");
 }
 
+/** Whether the nodes stand in the file by their numbers, without gaps: then these tell the places. */
+static int is_in_turn(const struct kr_gather *gather) {
+    const struct kr_gather_node *node = gather->node;
+    for (size_t k = 0; k < gather->n_nodes; k++)
+        if (node[k].tag != node[0].tag + k || node[k].place != k)
+            return 0;
+    return 1;
+}
+
 void kr_gather_resolve(struct kr_gather *gather) {
     sort_nodes(gather);
-    for (int dim = 0; dim < 4; dim++)
-        for (size_t k = 0; k < gather->pile[dim].n_nodes; k++)
-            gather->pile[dim].node[k] = place_of(gather, gather->pile[dim].node[k]);
+    const size_t in_turn = is_in_turn(gather) ? gather->n_nodes : 0;
+    const size_t least = in_turn ? gather->node[0].tag : 0;
+    for (int dim = 0; dim < 4; dim++) {
+        size_t *node = gather->pile[dim].node;
+        for (size_t k = 0; k < gather->pile[dim].n_nodes; k++) {
+            size_t place = node[k] - least; /* huge where the number is smaller */
+            node[k] = place < in_turn ? place : place_of(gather, node[k]);
+        }
+    }
 }
 
 /* ---- elements ---- */
@@ -68,7 +83,7 @@ static int by_number(const void *a, const void *b) {
 }
 
 size_t *kr_gather_order(const struct kr_gather *gather, const struct kr_pile *pile) {
-    size_t *order = KR_NEW(size_t, pile->count), k = 1;
+    size_t *order = KR_NEW_RAW(size_t, pile->count), k = 1;
     for (size_t i = 0; i < pile->count; i++)
         order[i] = i;
     while (k < pile->count && pile->tag[k] > pile->tag[k - 1])
@@ -102,7 +117,7 @@ static int share_group(const size_t *group_of, size_t a, size_t b) {
 
 size_t *kr_gather_merge(const struct kr_gather *gather, int dim) {
     const struct kr_pile *pile = &gather->pile[dim];
-    size_t *stands = KR_NEW(size_t, pile->count);
+    size_t *stands = KR_NEW_RAW(size_t, pile->count);
     for (size_t k = 0; k < pile->count; k++)
         stands[k] = k;
     if (!gather->merges)

@@ -20,8 +20,7 @@ void kr_msh2_nodes(struct kr_msh *msh) {
         int tag = kr_scan_int(scan, "the number of a node");
         if (tag < 0)
             kr_scan_bad(scan, "the number of a node is negative: %d", tag);
-        for (int d = 0; d < 3; d++)
-            point[d] = kr_scan_double(scan, "a coordinate of a node");
+        kr_scan_doubles(scan, 3, point, "a coordinate of a node");
         kr_gather_node(&msh->gather, (size_t)tag, point);
     }
 }

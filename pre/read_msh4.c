@@ -37,23 +37,21 @@ static void read_nodes_of_block(struct kr_msh *msh, size_t *left) {
     struct kr_scan *scan = &msh->scan;
     int dim = kr_scan_int(scan, "the dimension of a block");
     kr_scan_int(scan, "the entity of a block");
-    int extra = kr_scan_int(scan, "whether nodes are parametric") ? dim : 0;
+    size_t row = 3;
+    if (kr_scan_int(scan, "whether nodes are parametric") && dim > 0 && dim <= 3)
+        row += (size_t)dim; /* parameters of the node on its entity, which are passed over */
     size_t count = kr_scan_count(scan, 4, "the number of nodes of a block");
-    size_t *tag = KR_NEW(size_t, count);
     if (count > *left)
         kr_scan_bad(scan, "there are more nodes than the section announced");
     *left -= count;
+    size_t *tag = KR_NEW_RAW(size_t, count);
+    double *point = KR_NEW_RAW(double, row * count);
+    kr_scan_sizes(scan, count, tag, "the number of a node");
+    kr_scan_doubles(scan, row * count, point, "a coordinate of a node");
     for (size_t k = 0; k < count; k++)
-        tag[k] = kr_scan_size(scan, "the number of a node");
-    for (size_t k = 0; k < count; k++) {
-        double point[3];
-        for (size_t d = 0; d < 3; d++)
-            point[d] = kr_scan_double(scan, "a coordinate of a node");
-        for (int d = 0; d < extra; d++)
-            kr_scan_double(scan, "a parameter of a node");
-        kr_gather_node(&msh->gather, tag[k], point);
-    }
+        kr_gather_node(&msh->gather, tag[k], point + row * k);
     kr_free(tag);
+    kr_free(point);
 }
 
 void kr_msh4_nodes(struct kr_msh *msh) {
@@ -97,8 +95,7 @@ static void read_block(struct kr_msh *msh, size_t *left) {
     kr_gather_expect_elements(&msh->gather, type, count);
     for (size_t k = 0; k < count; k++) {
         size_t number = kr_scan_size(scan, "the number of an element"), node[KR_MOST_NODES];
-        for (size_t c = 0; c < kind->nodes; c++)
-            node[c] = kr_scan_size(scan, "a node of an element");
+        kr_scan_sizes(scan, kind->nodes, node, "a node of an element");
         size_t place = kr_gather_element(&msh->gather, type, number, node);
         for (size_t g = 0; g < entity->n_groups; g++)
             kr_gather_member(&msh->gather, entity->group[g], place);

@@ -9,7 +9,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* As kr_bonds_padded, of float or int32_t. */
 static void *padded(size_t n) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * What the files that build the families share: bonds_make.c (rows), bonds_lattice.c (the lattice),
- * bonds_share.c (lists that stand in memory once).
+ * What the files that build the families share: bonds_make.c (all of it), bonds_rows.c (rows),
+ * bonds_lattice.c (the lattice), bonds_share.c (lists that stand in memory once).
  */
 #ifndef KR_BONDS_MAKE_H
 #define KR_BONDS_MAKE_H

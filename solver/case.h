@@ -295,65 +295,28 @@ struct kr_case_arguments {
  *  first argument that ends in .yaml or .yml, else the first that is no option. */
 void kr_case_arguments(int argc, char **argv, const char *usage, struct kr_case_arguments *out);
 
-/** Fill in what the case's preset chooses and the deck does not give itself. `c` must be the struct
- *  that the deck was read into. */
-void kr_case_preset(const struct kr_deck *deck, struct kr_case *c);
-
-/** Check what no single key can tell: horizon against spacing, loads against sets. Faults are
- *  collected in the deck. `c` must be the struct that the deck was read into. */
-void kr_case_check(struct kr_deck *deck, const struct kr_case *c);
-
 /** Dimensions of the body: 3 for a solid, else 2. */
 int kr_case_dim(const struct kr_case *c);
 
-/** The part of it that looks at the material: its law, and whether there is such a solid. */
-void kr_case_check_material(struct kr_deck *deck, const struct kr_case *c);
-
-/** The part of it that looks at pre-cracks. */
-void kr_case_check_cracks(struct kr_deck *deck, const struct kr_case *c);
-
 /** Normal of a polygon in space (n x 3), as long as twice its area; 0 for one without. */
 void kr_case_normal(size_t n, const double *corner, double normal[3]);
-
-/** Whether the deck gives components for a vector, and as many as the model has dimensions; a fault
- *  where it gives others. */
-int kr_case_check_count(struct kr_deck *deck, const struct kr_case *c, const void *vector);
-
-/** The part of it that looks at one set of nodes. */
-void kr_case_check_set(struct kr_deck *deck, const struct kr_case *c,
-                       const struct kr_case_set *set);
-
-/** Fault a box whose upper corner is not above the lower one. */
-void kr_case_check_box(struct kr_deck *deck, const double *lower, const double *upper, int dim);
-
-/** Letters, digits, _ and -: a name becomes a dataset of HDF5 and a column of CSV. */
-int kr_case_is_name(const char *text);
-
-/** Complete outline and pores: which centres were given, and files from the deck's folder. `c` must
- *  be the struct that the deck was read into. */
-void kr_case_complete_geometry(struct kr_deck *deck, struct kr_case *c);
-
-/** The part of it that looks at outline and holes. */
-void kr_case_check_geometry(struct kr_deck *deck, const struct kr_case *c);
-
-/** Check what the deck asks of random pores. */
-void kr_case_check_pores(struct kr_deck *deck, const struct kr_case *c);
-
-/** The part of it that looks at stages and the end of the run. */
-void kr_case_check_stages(struct kr_deck *deck, const struct kr_case *c);
 
 /** Loads of a stage: its own, or the deck's (struct kr_case_load). */
 const struct kr_deck_list *kr_case_loads(const struct kr_case *c,
                                          const struct kr_case_stage *stage);
 
-/** The part of it that looks at depth, voids and the body of an STL file. */
-void kr_case_check_solid(struct kr_deck *deck, const struct kr_case *c);
+/** Files that a deck names, by what they are of. The visitor gets the field that names one, and its path as seen from
+ *  where the program runs. */
+enum kr_case_part { KR_CASE_MESH, KR_CASE_GEOMETRY, KR_CASE_MECHANICS, KR_CASE_PARTS };
+void kr_case_visit_files(struct kr_deck *deck, const struct kr_case *c, enum kr_case_part part,
+                         void (*visit)(void *context, const char *const *field, const char *path),
+                         void *context);
 
-/** Warn of what is doubtful in a case without faults. */
-void kr_case_warn(struct kr_deck *deck, const struct kr_case *c);
+/** Fault those that cannot be read. Programs that need none of them are not asked for. */
+void kr_case_check_files(struct kr_deck *deck, const struct kr_case *c);
 
-/** Open the deck, read and check it whole; faults stop (exit 2). With `check` it says that there
- *  are none and exits 0. The folder is made, unless the case is only to be explained. */
+/** Open the deck, read and check it whole; faults stop (exit 2). With `check` it looks for the files that the deck
+ *  names, too, says that there are no faults and exits 0. The folder is made, unless the case is only to be explained. */
 struct kr_deck *kr_case_open(const struct kr_case_arguments *arguments, struct kr_case *out);
 
 /** The k-th of some words, cut to 31 letters: kr_case_word(KR_MODEL_WORDS, c->model, word). */

@@ -4,9 +4,8 @@
  * but possible is a warning.
  */
 #include "base/error.h"
-#include "case.h"
+#include "case_check.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 

@@ -2,7 +2,7 @@
  *
  * Checks of pre-cracks: each is of one kind, which fits the model, and whole.
  */
-#include "case.h"
+#include "case_check.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,7 +4,7 @@
  * itself, a rounding that does not fit) kirsch-mesh finds out.
  */
 #include "base/memory.h"
-#include "case.h"
+#include "case_check.h"
 
 #include <math.h>
 #include <string.h>

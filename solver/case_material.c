@@ -5,7 +5,7 @@
  * the scale of the body is.
  */
 #include "material/material.h"
-#include "case.h"
+#include "case_check.h"
 #include "wave.h"
 
 #include <math.h>

@@ -7,9 +7,8 @@
 #include "base/machine.h"
 #include "base/memory.h"
 #include "base/provenance.h"
-#include "case.h"
+#include "case_check.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -157,6 +156,8 @@ struct kr_deck *kr_case_open(const struct kr_case_arguments *arguments, struct k
     kr_case_preset(deck, out);
     kr_case_complete_geometry(deck, out);
     kr_case_check(deck, out);
+    if (arguments->check)
+        kr_case_check_files(deck, out);
     kr_deck_finish(deck);
     kr_case_warn(deck, out);
     if (arguments->check) {

@@ -2,7 +2,7 @@
  *
  * Checks of random pores: what must be given with what, and what cannot be met whatever the throws.
  */
-#include "case.h"
+#include "case_check.h"
 
 #include <math.h>
 

@@ -2,7 +2,7 @@
  *
  * Presets: many choices in one word. A key that the deck gives itself wins over the preset.
  */
-#include "case.h"
+#include "case_check.h"
 
 /* Section 2 and 3 of the plates paper: the grid fitted near boundaries, eq. 13 with the size of the far
  * node alone, and the energy method under uniaxial strain. */

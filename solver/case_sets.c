@@ -2,9 +2,8 @@
  *
  * Checks of one set of nodes: it is of just one kind, and what that kind needs is there.
  */
-#include "case.h"
+#include "case_check.h"
 
-#include <math.h>
 #include <stddef.h>
 
 /* A kind of set: the fields that go together, by name and place. */

@@ -2,11 +2,10 @@
  *
  * Checks of what makes a case a solid: depth, voids, a body from an STL file.
  */
-#include "case.h"
+#include "case_check.h"
 
 #include <math.h>
 #include <stddef.h>
-#include <string.h>
 
 /* Quotients of decimals miss by a few bits. */
 static const double rounding = 1e-9;
@@ -99,6 +98,8 @@ void kr_case_check_solid(struct kr_deck *deck, const struct kr_case *c) {
         kr_deck_fault(deck, &c->voids, "voids need a solid; expected geometry.depth: 10 mm");
     else if (has_body)
         kr_deck_fault(deck, &c->body.file, "a body needs geometry.depth: 10 mm");
+    if (c->depth > 0 && kr_case_dim(c) == 2)
+        kr_deck_fault(deck, &c->depth, "makes a solid, and material.model is for plates; take solid, or leave the depth out");
     for (size_t k = 0; k < c->voids.count && c->depth > 0; k++)
         check_void(deck, c, &hollow[k]);
     if (has_body && !kr_deck_given(deck, &c->body.unit))

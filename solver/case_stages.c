@@ -2,7 +2,7 @@
  *
  * Checks of the stages of a case.
  */
-#include "case.h"
+#include "case_check.h"
 
 const struct kr_deck_list *kr_case_loads(const struct kr_case *c,
                                          const struct kr_case_stage *stage) {

@@ -9,14 +9,12 @@
 #include "base/memory.h"
 #include "base/provenance.h"
 #include "base/unit.h"
-#include "base/child.h"
 #include "kernel.h"
 
 #include <ctype.h>
 #include <fcntl.h>
 #include <math.h>
 #include <omp.h>
-#include <stdio.h>
 #include <sys/wait.h>
 #include <unistd.h>
 

@@ -10,10 +10,8 @@
 #include "base/memory.h"
 
 #include <errno.h>
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 /* The `which`-th load on a set, from 0. */
 struct column {

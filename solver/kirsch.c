@@ -159,9 +159,10 @@ static void print_summary(const struct kr_job *job) {
     if (VALUE("broken_bonds") > 0) {
         kr_say("  first growth at %.2f us, %.0f bonds broken, %.0f branches", 1e6 * VALUE("first_growth"),
                VALUE("broken_bonds"), VALUE("branches"));
-        kr_say("  crack speed %.0f m/s in the mean (%.2f of the Rayleigh speed %.0f m/s), %.0f m/s "
-               "at the top (%.2f)", VALUE("mean_speed"), VALUE("mean_speed_over_rayleigh"),
-               VALUE("rayleigh_speed"), VALUE("top_speed"), VALUE("top_speed_over_rayleigh"));
+        if (VALUE("branches") > 0)
+            kr_say("  crack speed %.0f m/s in the mean (%.2f of the Rayleigh speed %.0f m/s), %.0f m/s "
+                   "at the top (%.2f)", VALUE("mean_speed"), VALUE("mean_speed_over_rayleigh"),
+                   VALUE("rayleigh_speed"), VALUE("top_speed"), VALUE("top_speed_over_rayleigh"));
     } else {
         kr_say("  no bond broke");
     }
@@ -212,13 +213,28 @@ static void take_own_arguments(struct kr_job *job) {
             kr_stop(KR_EXIT_INPUT, "unknown argument '%s'; see kirsch --help", a->left[k]);
 }
 
+/* Faults that would show only in a later step, when the mesh has been made. */
+static void look_ahead(const struct kr_job *job) {
+    if (!job->mesh && kr_case_dim(&job->c) == 3 && !(job->c.depth > 0))
+        kr_deck_fault(job->deck, &job->c.depth, "missing; material.model is solid: expected depth: 10 mm, or mesh.file");
+    kr_case_check_files(job->deck, &job->c);
+    kr_deck_finish(job->deck);
+}
+
+/* Without holes; a mesh or body from elsewhere has its own number. */
+static void say_size(const struct kr_job *job) {
+    const struct kr_case *c = &job->c;
+    double layers = kr_case_dim(c) == 3 ? c->depth / c->spacing : 1;
+    if (!job->mesh && !(c->body.file && *c->body.file))
+        kr_say("at most about %.0f nodes", c->width / c->spacing * (c->height / c->spacing) * layers);
+}
+
 /* kirsch-solve knows what follows from the deck, once there are nodes. */
 static void explain(const struct kr_job *job) {
     char *nodes = kr_case_file(&job->c, "plate.nodes.h5");
-    double cells = job->c.width * job->c.height / (job->c.spacing * job->c.spacing);
     char *deck_text = kr_deck_resolved(job->deck, NULL);
     printf("%s", deck_text);
-    kr_say("about %.0f nodes", cells);
+    say_size(job);
     if (access(nodes, R_OK) == 0) {
         char *program = kr_child_beside("kirsch-solve");
         const char **command = command_of(job, program);
@@ -246,6 +262,7 @@ int main(int argc, char **argv) {
     job.deck = kr_case_open(&job.arguments, &job.c);
     if (job.c.mesh_file && *job.c.mesh_file)
         job.mesh = kr_deck_beside(job.deck, job.c.mesh_file);
+    look_ahead(&job);
     if (job.arguments.explain) {
         explain(&job);
     } else {

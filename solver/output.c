@@ -4,7 +4,6 @@
  */
 #include "output.h"
 
-#include "base/error.h"
 #include "base/file.h"
 #include "base/h5.h"
 #include "base/memory.h"
@@ -16,11 +15,9 @@
 #include "xdmf.h"
 
 #include <dirent.h>
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 struct kr_output {

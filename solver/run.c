@@ -17,7 +17,6 @@
 #include "rest.h"
 #include "watch.h"
 
-#include <math.h>
 #include <string.h>
 
 /* When a stage that moves writes history and, in a run with stages, outputs. */

@@ -178,3 +178,12 @@ size_t kr_search_near(const struct kr_search *s, size_t i, int *near, size_t roo
         sort_ascending(near, found);
     return found;
 }
+
+void kr_search_find(const struct kr_search *s, size_t i, struct kr_found *found) {
+    found->count = kr_search_near(s, i, found->near, found->room);
+    if (found->count <= found->room)
+        return;
+    found->room = 2 * found->count;
+    found->near = kr_realloc(found->near, found->room, sizeof *found->near);
+    found->count = kr_search_near(s, i, found->near, found->room);
+}

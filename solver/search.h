@@ -25,6 +25,15 @@ struct kr_search *kr_search_create(int dim, size_t n, const double *position, do
  */
 size_t kr_search_near(const struct kr_search *search, size_t i, int *near, size_t room);
 
+/** What was found: zeros at first, grows as it must; kr_free(found.near) in the end. */
+struct kr_found {
+    int *near;
+    size_t count, room;
+};
+
+/** kr_search_near with room for all. */
+void kr_search_find(const struct kr_search *search, size_t i, struct kr_found *found);
+
 void kr_search_free(struct kr_search *search);
 
 #endif

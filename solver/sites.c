@@ -13,7 +13,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 struct kr_sites {
     const struct kr_bonds *bonds; /* not owned */

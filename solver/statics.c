@@ -11,7 +11,6 @@
 #include "run.h"
 
 #include "base/error.h"
-#include "base/memory.h"
 #include "base/progress.h"
 #include "held.h"
 #include "interrupt.h"

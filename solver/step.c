@@ -55,68 +55,22 @@ static uint64_t hash_file(uint64_t hash, const struct kr_case *c, const char *na
     return hash;
 }
 
-/* A file as the deck names it, if it does. */
-static uint64_t hash_named(uint64_t hash, const struct kr_job *job, const char *name) {
-    if (!name || !*name)
-        return hash;
-    char *path = kr_deck_beside(job->deck, name);
-    hash = hash_path(hash, path);
-    kr_free(path);
-    return hash;
-}
-
-/* Files of pre-cracks. */
-static uint64_t hash_cracks(uint64_t hash, const struct kr_job *job) {
-    const struct kr_case_crack *crack = job->c.cracks.item;
-    for (size_t k = 0; k < job->c.cracks.count; k++)
-        hash = hash_named(hash, job, crack[k].file);
-    return hash;
-}
-
-static uint64_t hash_tables(uint64_t hash, const struct kr_job *job, const struct kr_deck_list *list) {
-    const struct kr_case_load *load = list->item;
-    for (size_t k = 0; k < list->count; k++)
-        hash = hash_named(hash, job, load[k].table_file);
-    return hash;
-}
-
-/* Files that the loads of the deck and its stages name. */
-static uint64_t hash_loads(uint64_t hash, const struct kr_job *job) {
-    const struct kr_case_stage *stage = job->c.stages.item;
-    hash = hash_tables(hash, job, &job->c.loads);
-    for (size_t k = 0; k < job->c.stages.count; k++)
-        hash = hash_tables(hash, job, &stage[k].loads);
-    return hash;
-}
-
-/* Files that the deck's geometry names. */
-static uint64_t hash_geometry(uint64_t hash, const struct kr_job *job) {
-    const struct kr_case *c = &job->c;
-    const struct kr_case_outline *part = c->outline.parts.item;
-    const struct kr_case_void *hollow = c->voids.item;
-    if (c->pores.file && *c->pores.file)
-        hash = hash_path(hash, c->pores.file);
-    if (c->outline.file && *c->outline.file)
-        hash = hash_path(hash, c->outline.file);
-    for (size_t k = 0; k < c->outline.parts.count; k++)
-        if (part[k].file && *part[k].file)
-            hash = hash_path(hash, part[k].file);
-    for (size_t k = 0; k < c->voids.count; k++)
-        hash = hash_named(hash, job, hollow[k].file);
-    return hash_named(hash, job, c->body.file);
+static void add_path(void *hash, const char *const *field, const char *path) {
+    (void)field;
+    *(uint64_t *)hash = hash_path(*(uint64_t *)hash, path);
 }
 
 static uint64_t stamp_of(const struct kr_job *job, const struct kr_step *step) {
     char *sections = kr_deck_resolved(job->deck, step->sections);
     uint64_t hash = hash_text(hash_text(KR_HASH_BEGIN, kr_version()), sections);
-    if (job->mesh && step == &kr_steps[KR_STEP_NODES])
-        hash = hash_path(hash, job->mesh);
+    if (step == &kr_steps[KR_STEP_NODES])
+        kr_case_visit_files(job->deck, &job->c, KR_CASE_MESH, add_path, &hash);
     if (step == &kr_steps[KR_STEP_SOLVE])
-        hash = hash_loads(hash_cracks(hash, job), job);
+        kr_case_visit_files(job->deck, &job->c, KR_CASE_MECHANICS, add_path, &hash);
     for (int k = 0; k < 4 && step->inputs[k]; k++)
         hash = hash_file(hash, &job->c, step->inputs[k]);
     if (step == &kr_steps[KR_STEP_PORES] || step == &kr_steps[KR_STEP_MESH])
-        hash = hash_geometry(hash, job);
+        kr_case_visit_files(job->deck, &job->c, KR_CASE_GEOMETRY, add_path, &hash);
     kr_free(sections);
     return hash;
 }

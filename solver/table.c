@@ -4,13 +4,11 @@
  */
 #include "table.h"
 
-#include "base/error.h"
 #include "base/memory.h"
 #include "base/unit.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 struct line {

@@ -6,7 +6,6 @@
 #include "time_step.h"
 
 #include "base/error.h"
-#include "base/memory.h"
 #include "wave.h"
 
 #include <math.h>

@@ -9,6 +9,7 @@
 #include "case.h"
 #include "nodes.h"
 #include "search.h"
+#include "share.h"
 
 #include <math.h>
 
@@ -52,13 +53,10 @@ struct kr_weights {
     double horizon;
     double reach; /* m: no bond is longer */
     double *size; /* (n) m: V^(1/dim) */
-    double
-        *radius; /* (n) m: of the circle (sphere) about the node that holds its cell; exact only */
-    size_t *first_side; /* (n + 1) of each polyhedron's outside, in `side`; NULL: there is none */
-    unsigned short *side; /* (sides x 3) triangles, as places among the corners of the cell */
+    struct kr_shares *shares; /* exact only */
     size_t *first_kept; /* (n + 1) of kr_weights_keep; NULL before */
     int *kept_with;     /* the higher node of each weight kept */
-    float *kept;        /* phi, rounded as bonds.c stores it; NULL: none are kept */
+    float *kept;        /* phi, rounded as bonds_make.c stores it; NULL: none are kept */
 };
 
 /** The partial volume of a case on these nodes. Exact shares need cells: where the deck

@@ -5,14 +5,11 @@
  */
 #include "xdmf.h"
 
-#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "quantity.h"
 
-#include <errno.h>
 #include <stdio.h>
-#include <string.h>
 
 static void write_field(FILE *file, const struct kr_nodes *nodes, long step, int field, int wide) {
     const struct kr_quantity_kind *kind = &kr_quantities[field];

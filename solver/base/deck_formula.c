@@ -18,8 +18,11 @@
 static char *fault_of(const char *text) {
     char *why = NULL;
     struct kr_expression *expression = kr_expression_create(text, &why);
-    if (!expression)
-        return why;
+    if (!expression) {
+        char *cure = kr_text("%s; expected numbers, x, y, z [m], t [s] and functions such as sin and min", why);
+        kr_free(why);
+        return cure;
+    }
     int varies =
         kr_expression_varies_in_space(expression) || kr_expression_varies_in_time(expression);
     if (!varies && !isfinite(kr_expression_value(expression, 0, 0, 0, 0)))

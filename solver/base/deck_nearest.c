@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * "Did you mean": the key nearest to one that is unknown, by Levenshtein's distance.
+ * "Did you mean": the key nearest to one that is unknown, by the number of letters to insert, to leave out, to
+ * replace, or to exchange with their neighbours (Damerau, Commun. ACM 7, 1964).
  */
 #include "base/deck_private.h"
 #include "base/memory.h"
@@ -15,26 +16,29 @@ static int letter(char c) {
     return c == '_' || c == ' ' ? '-' : tolower((unsigned char)c);
 }
 
+static size_t least(size_t a, size_t b) {
+    return a < b ? a : b;
+}
+
 size_t kr_deck_distance(const char *a, const char *b) {
-    size_t row[LONGEST + 1], n = strlen(a), m = strlen(b);
+    size_t table[3][LONGEST + 1], n = strlen(a), m = strlen(b); /* of the rows i, i - 1, i - 2 by turns */
     if (n > LONGEST || m > LONGEST)
         return LONGEST;
     for (size_t j = 0; j <= m; j++)
-        row[j] = j;
+        table[0][j] = j;
     for (size_t i = 1; i <= n; i++) {
-        size_t diagonal = row[0];
+        size_t *row = table[i % 3];
+        const size_t *above = table[(i - 1) % 3], *before = table[(i + 1) % 3];
         row[0] = i;
         for (size_t j = 1; j <= m; j++) {
-            size_t best = diagonal + (letter(a[i - 1]) != letter(b[j - 1]));
-            diagonal = row[j];
-            if (row[j] + 1 < best)
-                best = row[j] + 1;
-            if (row[j - 1] + 1 < best)
-                best = row[j - 1] + 1;
-            row[j] = best;
+            row[j] = above[j - 1] + (letter(a[i - 1]) != letter(b[j - 1]));
+            row[j] = least(row[j], least(above[j], row[j - 1]) + 1);
+            if (i > 1 && j > 1 && letter(a[i - 1]) == letter(b[j - 2]) &&
+                letter(a[i - 2]) == letter(b[j - 1]))
+                row[j] = least(row[j], before[j - 2] + 1);
         }
     }
-    return row[m];
+    return table[n % 3][m];
 }
 
 /* Near: at most a third of the letters differ. */

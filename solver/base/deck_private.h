@@ -109,8 +109,10 @@ void kr_deck_value(const struct kr_deck_spot *spot, void *place);
 void kr_deck_mismatch(const struct kr_deck_spot *spot, const char *cure);
 /** Put NaN into the numbers of a row that cannot be read or is missing. */
 void kr_deck_spoil(const struct kr_deck_key *key, void *place);
-/** What a row expects, in words, owned by the caller. */
+/* ---- deck_expected.c: what is expected, as a part of a sentence, owned by the caller */
+/** Of a row; and of one number of it, as "a length in mm", "a pure number". */
 char *kr_deck_expected(const struct kr_deck_key *key);
+char *kr_deck_expected_number(const struct kr_deck_key *key);
 /** The n-th of words separated by blanks: its beginning and length; NULL past the last. */
 const char *kr_deck_word(const char *words, size_t n, int *length);
 

@@ -9,7 +9,6 @@
 #include "base/memory.h"
 
 #include <libfyaml.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* More keys than anybody writes; keeps the search for doubles from growing with the square. */

@@ -2,7 +2,6 @@
  *
  * Arrays of the HDF5 wrapper. Times of creation are not stored: equal results give equal files.
  */
-#include <string.h>
 
 #include "base/h5_private.h"
 #include "base/memory.h"

@@ -3,7 +3,6 @@
  * Attributes of the HDF5 wrapper. Texts are stored with variable length: those of fixed length may
  * not exceed 64 KiB, and a deck's resolved text may.
  */
-#include <string.h>
 
 #include "base/h5_private.h"
 #include "base/memory.h"

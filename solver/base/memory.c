@@ -71,7 +71,8 @@ static void clear(char *array, size_t size) {
         memset(array + k * PART, 0, k + 1 < parts ? PART : size - k * PART);
 }
 
-void *kr_alloc(size_t count, size_t size) {
+/* An array as it comes, and with it the bytes up to its last line of the cache. */
+static char *take(size_t count, size_t size, size_t *room_for) {
     if (size && count > (SIZE_MAX / 2 - 2 * HEADER) / size)
         kr_stop(KR_EXIT_MEMORY, "%zu items of %zu bytes are more than any machine can hold", count,
                 size);
@@ -84,22 +85,36 @@ void *kr_alloc(size_t count, size_t size) {
                 "out of memory: %.1f MiB more wanted with %.1f MiB in use; a coarser spacing or a "
                 "larger machine is needed",
                 (double)bytes / 1048576, (double)bytes_now / 1048576);
-    clear((char *)header + HEADER, room - HEADER);
     header[0] = bytes;
     outstanding++;
     bytes_now += bytes;
     if (bytes_now > bytes_peak)
         bytes_peak = bytes_now;
+    *room_for = room - HEADER;
     return (char *)header + HEADER;
 }
 
+void *kr_alloc(size_t count, size_t size) {
+    size_t room;
+    char *array = take(count, size, &room);
+    clear(array, room);
+    return array;
+}
+
+void *kr_alloc_raw(size_t count, size_t size) {
+    size_t room;
+    return take(count, size, &room);
+}
+
 void *kr_realloc(void *array, size_t count, size_t size) {
-    void *larger = kr_alloc(count, size);
-    if (array) {
-        size_t old = *header_of(array);
-        memcpy(larger, array, old < count * size ? old : count * size);
-        kr_free(array);
-    }
+    size_t room, kept = array ? *header_of(array) : 0;
+    char *larger = take(count, size, &room);
+    if (kept > count * size)
+        kept = count * size;
+    if (kept)
+        memcpy(larger, array, kept);
+    clear(larger + kept, room - kept);
+    kr_free(array);
     return larger;
 }
 

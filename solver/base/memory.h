@@ -13,6 +13,9 @@
  *  is none or where count * size overflows. count 0 gives a valid pointer. */
 void *kr_alloc(size_t count, size_t size);
 
+/** As kr_alloc, but not zeroed: for large arrays that are written whole before they are read. */
+void *kr_alloc_raw(size_t count, size_t size);
+
 /** Change an array to count items; new bytes are zeroed. array NULL allocates. */
 void *kr_realloc(void *array, size_t count, size_t size);
 
@@ -34,6 +37,8 @@ size_t kr_memory_peak(void);
 
 /** An array of `count` items of `type`. */
 #define KR_NEW(type, count) ((type *)kr_alloc((count), sizeof(type)))
+
+#define KR_NEW_RAW(type, count) ((type *)kr_alloc_raw((count), sizeof(type)))
 
 /** Make room for one more item in a growing array: doubles when full. */
 #define KR_GROW(array, count, room)                                                                \

@@ -27,7 +27,8 @@ struct kr_scan kr_scan_open(const char *path) {
     if (!S_ISREG(about.st_mode))
         kr_stop(KR_EXIT_INPUT, "%s is no file", path);
     scan.size = (size_t)about.st_size;
-    scan.data = KR_NEW(char, scan.size + 1);
+    scan.data = KR_NEW_RAW(char, scan.size + 1);
+    scan.data[scan.size] = 0;
     if (fread(scan.data, 1, scan.size, file) != scan.size)
         kr_stop(KR_EXIT_INPUT, "%s cannot be read: %s", path, strerror(errno));
     fclose(file);
@@ -53,8 +54,12 @@ void kr_scan_bad(const struct kr_scan *scan, const char *format, ...) {
 }
 
 static void skip_blank(struct kr_scan *scan) {
-    while (scan->at < scan->size && isspace((unsigned char)scan->data[scan->at]))
-        scan->at++;
+    if (scan->at >= scan->size)
+        return;
+    const char *at = scan->data + scan->at; /* the zero at the end is no blank */
+    while (*at == ' ' || (*at >= '\t' && *at <= '\r'))
+        at++;
+    scan->at = (size_t)(at - scan->data);
 }
 
 /** Take `bytes` of a binary number. */
@@ -85,12 +90,12 @@ static int ended_well(const struct kr_scan *scan, const char *end) {
 /** A plain number of up to 18 digits, nearly all there are; 0 for any other text. */
 static int short_integer(struct kr_scan *scan, long long *value) {
     const char *begin = scan->data + scan->at, *at = begin;
-    long long sum = 0;
-    while (*at >= '0' && *at <= '9' && at - begin < 18)
-        sum = 10 * sum + (*at++ - '0');
-    if (at == begin || (*at != ' ' && *at != '\n'))
+    unsigned long long sum = 0;
+    for (unsigned digit; (digit = (unsigned)*at - '0') < 10; at++)
+        sum = 10 * sum + digit;
+    if (at == begin || at - begin > 18 || (*at != ' ' && *at != '\n'))
         return 0;
-    *value = sum;
+    *value = (long long)sum;
     scan->at += (size_t)(at - begin);
     return 1;
 }
@@ -147,6 +152,36 @@ double kr_scan_double(struct kr_scan *scan, const char *what) {
     if (!isfinite(value))
         kr_scan_bad(scan, "%s is not finite", what);
     return value;
+}
+
+void kr_scan_sizes(struct kr_scan *scan, size_t n, size_t *value, const char *what) {
+    size_t all = 0;
+    if (scan->is_binary && n <= (scan->size - scan->at) / sizeof *value) {
+        memcpy(value, scan->data + scan->at, n * sizeof *value);
+        for (size_t k = 0; k < n; k++)
+            all |= value[k];
+        if (all <= INT64_MAX) { /* none is negative */
+            scan->at += n * sizeof *value;
+            return;
+        }
+    }
+    for (size_t k = 0; k < n; k++)
+        value[k] = kr_scan_size(scan, what);
+}
+
+void kr_scan_doubles(struct kr_scan *scan, size_t n, double *value, const char *what) {
+    int are_finite = 1;
+    if (scan->is_binary && n <= (scan->size - scan->at) / sizeof *value) {
+        memcpy(value, scan->data + scan->at, n * sizeof *value);
+        for (size_t k = 0; k < n; k++)
+            are_finite &= value[k] - value[k] == 0;
+        if (are_finite) {
+            scan->at += n * sizeof *value;
+            return;
+        }
+    }
+    for (size_t k = 0; k < n; k++)
+        value[k] = kr_scan_double(scan, what);
 }
 
 size_t kr_scan_count(struct kr_scan *scan, size_t least, const char *what) {

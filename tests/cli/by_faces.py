@@ -79,7 +79,7 @@ with open(target, "wb") as file:
             text = [" ".join(per_row % x for x in row) for row in numbers]
             file.write(("(\n" + "\n".join(text) + "\n))\n").encode())
 
-    file.write(b'(0 "by faces (with a parenthesis, and \\"words\\" :-)")\r\n(1 "a program")\n(2 %d)\n' % dimension)
+    file.write(b'(0 "by faces (with one parenthesis, and \\"words\\" :-(")\r\n(1 "a program")\n(2 %d)\n' % dimension)
     section(10, (0, 1, len(mesh.points), 0, dimension))
     section(12, (0, 1, len(cells), 0))
     section(13, (0, 1, sum(map(len, faces.values())), 0))

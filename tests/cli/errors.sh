@@ -39,6 +39,26 @@ changed_nodes() { # words, Python statement about `file`
     stops 2 "$1" "$build/kirsch-solve" --output "$work/changed" "$work/case.yaml"
 }
 
+# A solid for kirsch, which is told before the mesh is made what no mesh can mend.
+solid() { # depth or nothing, option...
+    mkdir -p "$work/solid"
+    cat >"$work/solid/case.yaml" <<END
+geometry: {width: 4 mm, height: 3 mm$1}
+mesh: {spacing: 0.5 mm}
+nodes: {horizon: 1.5 mm}
+material: {model: solid, youngs_modulus: 3 GPa, density: 1200 kg/m3}
+loads: [{set: top, traction: [free, 1 MPa, free]}]
+solver: {end_time: 1 us}
+END
+    shift
+    "$build/kirsch" --output "$work/solid" "$@" "$work/solid/case.yaml"
+}
+tells_its_size() { solid ', depth: 2 mm' --explain | grep -q '^at most about 192 nodes'; }
+
+check solid_without_depth stops 2 "geometry.depth: missing; material.model is solid" solid ''
+check table_that_is_not_there stops 2 "loads.0.table.file: .*/none.csv cannot be read" \
+    solid ', depth: 2 mm' --set loads.0.table.file=none.csv
+check solid_tells_its_size tells_its_size
 check no_node_file no_nodes
 check empty_node_file cut_nodes 0
 check node_file_cut_in_its_head cut_nodes 700

@@ -209,6 +209,9 @@ check draws_the_tree draws_the_tree
 check draws_other_formats draws_other_formats
 check compares_a_field compares_a_field
 check refuses_limits_upside_down told 2 'limits: found .2,1., expected the lower one first' plot --field Damage --limits 2,1
+check refuses_an_option_without_its_value told 2 'dpi: expected a value behind it, as --dpi 150' plot damage --dpi
+check refuses_an_unknown_option told 2 'unknown option `--colour`' plot damage --colour red
+check refuses_a_wrong_time told 2 'at: found `soon`, expected a time in us' "$build/kirsch-plot" compare "$run" "$run" --at soon
 check refuses_an_unknown_field told 2 'unknown field `Damge`; the run has Damage' plot --field Damge
 check refuses_an_unknown_picture told 2 'unknown picture `dammage`' plot dammage
 check goes_on_without_ffmpeg without_ffmpeg

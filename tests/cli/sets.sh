@@ -40,7 +40,7 @@ nodes:
     half: {through: [12 mm, 7 mm$mid], normal: [1, -2$up]}
     either: {union: [box, disc, right]}
     both: {intersection: [box, disc, half]}
-    less: {difference: [disc, box, near]}
+    less: {difference: [disc, box, half]}
     others: {not: [box, half]}
 $4
 DECK
@@ -70,7 +70,7 @@ want = {"near": nodes(x[:, 0] <= 2.2),
         "half": nodes((x - cut(12, 7, 5)) @ cut(1, -2, .5) >= 0)}
 want["either"] = want["box"] | want["disc"] | got["right"]
 want["both"] = want["box"] & want["disc"] & want["half"]
-want["less"] = want["disc"] - want["box"] - want["near"]
+want["less"] = want["disc"] - want["box"] - want["half"]
 want["others"] = set(range(len(x))) - want["box"] - want["half"]
 if dim == 2:
     # The polygon as the sum of the signed triangles of its fan.

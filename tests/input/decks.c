@@ -49,6 +49,9 @@ static const struct row {
     {"deck_unknown_key_near", "  horizon: 0.31 mm", "  horizn: 0.31 mm", NULL, NULL,
      "case.yaml:12:3: nodes.horizn: unknown key; did you mean 'horizon'?\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_unknown_key_with_letters_exchanged", "  width: 50 mm", "  wdith: 50 mm", NULL, NULL,
+     "case.yaml:3:3: geometry.wdith: unknown key; did you mean 'width'?\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_unknown_key_in_other_case", "  horizon: 0.31 mm", "  Horizon: 0.31 mm", NULL, NULL,
      "case.yaml:12:3: nodes.Horizon: unknown key; did you mean 'horizon'?\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
@@ -218,7 +221,7 @@ static const struct row {
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_formula_with_an_unknown_name", "[free, 6 MPa]", "[free, 6*sin(q) MPa]", NULL, NULL,
      "case.yaml:24:33: loads.0.traction.1: found '6*sin(q) MPa': unexpected token \"q\" found at "
-     "position 6\n"
+     "position 6; expected numbers, x, y, z [m], t [s] and functions such as sin and min\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_formula_with_a_comma_unquoted", "[free, 6 MPa]", "[free, 6*min(t, 1) MPa]", NULL, NULL,
      "case.yaml:24:27: loads.0.traction: found a list of 3, expected a list of at most 3, each an "
@@ -230,7 +233,7 @@ static const struct row {
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_formula_with_assignment", "[free, 6 MPa]", "[free, \"x=6 MPa\"]", NULL, NULL,
      "case.yaml:24:33: loads.0.traction.1: found 'x=6 MPa': '=' assigns, which an expression may "
-     "not; '==' compares\n"
+     "not; '==' compares; expected numbers, x, y, z [m], t [s] and functions such as sin and min\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_formula_in_no_list", "[free, 6 MPa]", "6 MPa", NULL, NULL,
      "case.yaml:24:26: loads.0.traction: found '6 MPa', expected a list of at most 3, each an "
@@ -333,17 +336,23 @@ static const struct row {
     {"deck_depth_of_no_layers", "  height: 25 mm\n", "  height: 25 mm\n  depth: 1.04 mm\n", NULL, NULL,
      "case.yaml:5:10: geometry.depth: 0.00104 m is no whole number of spacings of 0.0001 m; the "
      "nearest that is: 0.001 m\n"
-     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+     "case.yaml:5:10: geometry.depth: makes a solid, and material.model is for plates; take solid, or leave the depth "
+     "out\n"
+     "kirsch: 2 faults in case.yaml; nothing was done\n"},
     {"deck_void_of_another_shape", "  height: 25 mm\n",
      "  height: 25 mm\n  depth: 2 mm\n  voids: [{shape: cylinder, centre: [5 mm, 5 mm, 1 mm], radius: 1 mm}]\n",
      NULL, NULL,
+     "case.yaml:5:10: geometry.depth: makes a solid, and material.model is for plates; take solid, or leave the depth "
+     "out\n"
      "case.yaml:6:12: geometry.voids.0.length: missing; expected length: 4 mm for shape cylinder\n"
-     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+     "kirsch: 2 faults in case.yaml; nothing was done\n"},
     {"deck_void_outside", "  height: 25 mm\n",
      "  height: 25 mm\n  depth: 2 mm\n  voids: [{centre: [5 mm, 5 mm, 4 mm], radius: 1 mm}]\n", NULL, NULL,
+     "case.yaml:5:10: geometry.depth: makes a solid, and material.model is for plates; take solid, or leave the depth "
+     "out\n"
      "case.yaml:6:21: geometry.voids.0.centre: the void lies outside the body of 0.05 m x 0.025 m x "
      "0.002 m, 0.001 m from it\n"
-     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+     "kirsch: 2 faults in case.yaml; nothing was done\n"},
     {"deck_pores_by_two_words", "count: 3,", "count: 3, porosity: 0.1,", NULL, NULL,
      "case.yaml:7:31: geometry.pores.porosity: pores are given by just one of count, porosity and "
      "file\n"
@@ -628,6 +637,25 @@ static void case_check_says_so_and_makes_nothing(void **state) {
     kr_check_stops(check_only, "none.yaml", 2, "none.yaml cannot be read: No such file");
 }
 
+/* Asked to check, it looks for them; a program that needs none of them works without. */
+static void case_check_looks_for_files(void **state) {
+    static const char *const row[][3] = {
+        {"  grid: uniform", "  grid: uniform\n  file: a.msh", "case.yaml:10:9: mesh.file: ./a.msh cannot be read: No such file"},
+        {"count: 3, radius: [0.2 mm, 0.5 mm]", "file: a.txt", "case.yaml:7:17: geometry.pores.file: ./a.txt cannot be read"},
+        {"ramp: 10 us", "table: {file: a.csv}", "case.yaml:25:61: loads.1.table.file: ./a.csv cannot be read"},
+    };
+    (void)state;
+    for (size_t k = 0; k < sizeof row / sizeof row[0]; k++) {
+        struct kr_case_arguments arguments = {.deck = "case.yaml", .explain = 1};
+        struct kr_case c;
+        write_deck(row[k][0], row[k][1]);
+        kr_check_stops(check_only, "case.yaml", 2, row[k][2]);
+        kr_deck_close(kr_case_open(&arguments, &c));
+        kr_unit_close();
+        assert_int_equal(kr_memory_outstanding(), 0);
+    }
+}
+
 static void case_makes_its_folder_with_parents(void **state) {
     (void)state;
     struct kr_case c;
@@ -763,10 +791,11 @@ static void arguments_help_and_stop(void **state) {
 }
 
 int main(void) {
-    struct CMUnitTest tests[ROWS + 9] = {
+    const struct CMUnitTest single[] = {
         cmocka_unit_test(solid_faults_of_precracks_are_named),
         cmocka_unit_test(case_is_read_in_si),
         cmocka_unit_test(case_check_says_so_and_makes_nothing),
+        cmocka_unit_test(case_check_looks_for_files),
         cmocka_unit_test(case_makes_its_folder_with_parents),
         cmocka_unit_test(case_warns_of_a_small_horizon),
         cmocka_unit_test(pores_follow_the_holes_of_the_deck),
@@ -774,9 +803,12 @@ int main(void) {
         cmocka_unit_test(arguments_are_sorted),
         cmocka_unit_test(arguments_help_and_stop),
     };
+    enum { SINGLE = sizeof single / sizeof single[0] };
+    struct CMUnitTest tests[SINGLE + ROWS];
     char folder[] = "/tmp/kirsch-decks-XXXXXX", filter[256];
+    memcpy(tests, single, sizeof single);
     for (size_t i = 0; i < ROWS; i++)
-        tests[9 + i] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, (void *)&rows[i]};
+        tests[SINGLE + i] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, (void *)&rows[i]};
     if (!mkdtemp(folder) || chdir(folder))
         return 1;
     snprintf(filter, sizeof filter, "*%s*", getenv("ONLY") ? getenv("ONLY") : "");

@@ -11,7 +11,6 @@
 
 #include <signal.h>
 #include <sys/resource.h>
-#include <sys/stat.h>
 
 /** A file in memory. */
 struct text {

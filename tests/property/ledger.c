@@ -5,7 +5,6 @@
  */
 #include "test.h"
 
-#include "base/error.h"
 #include "cases.h"
 #include "plates.h"
 

@@ -3,9 +3,8 @@
  * Plates and tubes with a depth, on the four grids: exact volumes, groups that tile the boundary,
  * and files that bring back what was written.
  */
+#include "folder.h"
 #include "solids3d.h"
-
-#include <unistd.h>
 
 static struct kr_block block_of(enum kr_grid grid, size_t n, const struct kr_case_hole *hole) {
     return (struct kr_block){.plate = {.width = 6 * MM,
@@ -69,8 +68,6 @@ static void a_tube(void **unused) {
 static void a_file_brings_it_back(void **unused) {
     (void)unused;
     const struct kr_case_hole hole[] = {{{2.6 * MM, 2.4 * MM}, 1.1 * MM}};
-    char folder[] = "/tmp/kirsch-mesh3d-XXXXXX";
-    assert_non_null(mkdtemp(folder));
     char *path = kr_text("%s/plate.msh", folder);
     struct kr_block block = block_of(KR_GRID_VORONOI, 1, hole);
     struct kr_block_report report;
@@ -89,8 +86,6 @@ static void a_file_brings_it_back(void **unused) {
     }
     kr_mesh_free(mesh);
     kr_mesh_free(again);
-    unlink(path);
-    rmdir(folder);
     kr_free(path);
 }
 
@@ -98,7 +93,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_plate_with_holes),
         cmocka_unit_test(a_tube),
-        cmocka_unit_test(a_file_brings_it_back),
+        cmocka_unit_test_setup_teardown(a_file_brings_it_back, make_folder, remove_folder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

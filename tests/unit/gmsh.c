@@ -10,7 +10,6 @@
 #include "fill.h"
 #include "gmsh.h"
 
-#include <sys/stat.h>
 #include <time.h>
 
 /** A region of 2 by 1 squares of the lattice. */
@@ -30,17 +29,6 @@ static struct kr_gmsh_region region_of_two(void) {
 static const char good[] = "nodes 6\n0 0\n1 0\n2 0\n2 1\n1 1\n0 1\ncells 0\n"
                            "cells 2\n4 0 1 4 5\n4 1 2 3 4\nend\n";
 
-/** Write a shell script that stands in for kirsch-gmsh; owned by the caller. */
-static char *helper(const char *name, const char *body) {
-    char *path = kr_text("%s/%s", folder, name);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fprintf(file, "#!/bin/sh\n%s\n", body);
-    fclose(file);
-    assert_int_equal(chmod(path, 0755), 0);
-    return path;
-}
-
 static void fill(void *path) {
     struct kr_gmsh_region region = region_of_two();
     struct kr_gmsh_options options = {path, 1, 2};
@@ -52,7 +40,7 @@ static void fill(void *path) {
 
 /** With this helper the filling must stop with exit 5, saying `text`. */
 static void expect_stop(const char *body, const char *text) {
-    char *path = helper("bad", body);
+    char *path = make_program("bad", body);
     kr_check_stops(fill, path, 5, text);
     kr_check_stops(fill, path, 5, "gmsh cannot fill the region around hole_7 by any of 4 methods");
     kr_free(path);
@@ -68,7 +56,7 @@ static void expect_refused(const char *reply, const char *text) {
 static void a_good_reply_is_taken(void **unused) {
     (void)unused;
     char *body = kr_text("cat > %s/request; printf '%%b' '%s'", folder, good), line[256];
-    char *path = helper("good", body), *request = kr_text("%s/request", folder);
+    char *path = make_program("good", body), *request = kr_text("%s/request", folder);
     struct kr_gmsh_region region = region_of_two();
     kr_gmsh_fill(1, &region, &(struct kr_gmsh_options){path, 0, 0});
     assert_int_equal(region.n_cells, 2);
@@ -106,7 +94,7 @@ static void a_hanging_child_is_ended(void **unused) {
     char *body = kr_text("read a b c rest; [ $c = 9 ] && case $rest in *' 1 size'*) while :; do :; "
                          "done;; esac; printf '%%b' '%s'",
                          good);
-    char *path = helper("hangs", body);
+    char *path = make_program("hangs", body);
     time_t began = time(NULL);
     kr_check_stops(fill, path, 0,
                    "packing of parallelograms (9), blossom failed: it was not done after 2 s of work");
@@ -118,7 +106,7 @@ static void a_hanging_child_is_ended(void **unused) {
 /* A busy machine may keep a child waiting: that is not hanging. */
 static void a_waiting_child_is_left_alone(void **unused) {
     (void)unused;
-    char *body = kr_text("sleep 3; printf '%%b' '%s'", good), *path = helper("waits", body);
+    char *body = kr_text("sleep 3; printf '%%b' '%s'", good), *path = make_program("waits", body);
     kr_check_stops(fill, path, 0, "filled by packing of parallelograms (9), blossom with 2 cells");
     kr_free(body);
     kr_free(path);
@@ -134,7 +122,7 @@ static void a_warning_is_a_failure_though_the_reply_is_good(void **unused) {
 static void the_next_method_is_tried(void **unused) {
     (void)unused;
     char *body = kr_text("read a b c rest; [ $c = 9 ] && kill -SEGV $$; printf '%%b' '%s'", good);
-    char *path = helper("second", body);
+    char *path = make_program("second", body);
     kr_check_stops(fill, path, 0, "trying frontal-Delaunay (6), blossom");
     kr_check_stops(fill, path, 0, "filled by frontal-Delaunay (6), blossom with 2 cells");
     kr_free(body);
@@ -190,7 +178,7 @@ static void a_nan_is_refused(void **unused) {
 static void many_regions_get_their_own(void **unused) {
     (void)unused;
     /* The helper fills a region of width w by w squares; the wider end sooner. */
-    char *path = helper(
+    char *path = make_program(
         "wide",
         "read a; read b; read c; read w rest; w=$(cat | sed -n 's/^\\([0-9]*\\) 1 .*/\\1/p' | "
         "head -n 1)\n"

@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "fill_solid.h"
 
-#include <sys/stat.h>
 #include <time.h>
 
 /** A double pyramid of five points, as three tetrahedra around its axis: six triangles. */
@@ -34,13 +33,9 @@ static const char good[] = "points 0\\ncells 2\\n0 2 3 4\\n1 2 3 4\\nend\\n";
 
 /** Write a shell script that stands in for kirsch-gmsh-solid; returns the name as kirsch-gmsh's. */
 static char *helper(const char *name, const char *body) {
-    char *path = kr_text("%s/%s-solid", folder, name), *base = kr_text("%s/%s", folder, name);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fprintf(file, "#!/bin/sh\n%s\n", body);
-    fclose(file);
-    assert_int_equal(chmod(path, 0755), 0);
-    kr_free(path);
+    char *program = kr_text("%s-solid", name), *base = kr_text("%s/%s", folder, name);
+    kr_free(make_program(program, body));
+    kr_free(program);
     return base;
 }
 

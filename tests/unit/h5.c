@@ -3,8 +3,8 @@
  * The HDF5 wrapper: round trips, growing arrays, and each way in which a file can be wrong.
  */
 #include "test.h"
+#include "folder.h"
 
-#include <fcntl.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -12,22 +12,13 @@
 #include "base/error.h"
 #include "base/h5.h"
 
-static char folder[] = "/tmp/kirsch-h5-XXXXXX";
 static char path[64];
 
 static int set_up(void **state) {
-    (void)state;
-    if (!mkdtemp(folder))
+    if (make_folder(state))
         return -1;
     snprintf(path, sizeof path, "%s/a.h5", folder);
     return 0;
-}
-
-static int tear_down(void **state) {
-    char command[128];
-    (void)state;
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return system(command);
 }
 
 static const double numbers[6] = {0.1, -2.5e-9, 3.25e12, 1 / 3.0, INFINITY, -1};
@@ -329,5 +320,5 @@ int main(void) {
     const char *only = getenv("ONLY");
     snprintf(filter, sizeof filter, "*%s*", only ? only : "");
     cmocka_set_test_filter(filter);
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, set_up, remove_folder);
 }

@@ -282,6 +282,37 @@ static void faults_are_named_with_their_line(void **unused) {
     kr_check_stops(read_it, "/tmp", 2, "/tmp ");
 }
 
+/** A number in a binary file: the one that is wrong is named with its byte, though all are taken together. */
+static void faults_in_binary_are_named_with_their_byte(void **unused) {
+    (void)unused;
+    struct kr_mesh *mesh = sample();
+    char *path = path_of("binary.msh");
+    size_t size;
+    mesh->point[3 * 4 + 1] = 0.4711;
+    kr_mesh_write_msh(mesh, path);
+    char *data = get(path, &size);
+    const double place = 0.4711, infinite = INFINITY;
+    const int64_t numbers[2] = {5, 6}, negative = -12;
+    for (int k = 0; k < 2; k++) {
+        char *nodes = memmem(data, size, "$Nodes", 6), kept[8];
+        assert_non_null(nodes);
+        char *at = memmem(nodes, size - (size_t)(nodes - data), k ? (const void *)numbers : &place,
+                          k ? 16 : 8);
+        assert_non_null(at);
+        memcpy(kept, at, 8);
+        memcpy(at, k ? (const void *)&negative : &infinite, 8);
+        put(path, data, size);
+        char *text = kr_text("binary.msh, byte %td: %s", at + 8 - data,
+                             k ? "the number of a node is negative: -12" : "a coordinate of a node is not finite");
+        kr_check_stops(read_it, path, 2, text);
+        memcpy(at, kept, 8);
+        kr_free(text);
+    }
+    kr_free(data);
+    kr_free(path);
+    kr_mesh_free(mesh);
+}
+
 /** Read the first `size` bytes in a child; returns its exit code, -1 for a crash. */
 static int read_cut(const char *path, const char *data, size_t size) {
     int status;
@@ -377,6 +408,7 @@ int main(void) {
         cmocka_unit_test(files_of_gmsh_are_read),
         cmocka_unit_test(a_file_by_hand_is_read),
         cmocka_unit_test(faults_are_named_with_their_line),
+        cmocka_unit_test(faults_in_binary_are_named_with_their_byte),
         cmocka_unit_test(cut_files_stop),
         cmocka_unit_test(garbled_files_do_not_crash),
         cmocka_unit_test(what_cannot_be_written_stops),

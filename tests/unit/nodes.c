@@ -3,29 +3,20 @@
  * Nodes: file and back, a new order, and each way in which they can be wrong.
  */
 #include "test.h"
+#include "folder.h"
 
 #include "base/error.h"
 #include "nodes.h"
 #include "plates.h"
 
 enum { COLUMNS = 7, ROWS = 5 };
-static char folder[] = "/tmp/kirsch-nodes-XXXXXX";
 static char path[64];
 
 static int set_up(void **state) {
-    (void)state;
-    strcpy(folder, "/tmp/kirsch-nodes-XXXXXX");
-    if (!mkdtemp(folder))
+    if (make_folder(state))
         return -1;
     snprintf(path, sizeof path, "%s/plate.nodes.h5", folder);
     return 0;
-}
-
-static int tear_down(void **state) {
-    char command[128];
-    (void)state;
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return system(command);
 }
 
 static void add_set(struct kr_nodes *nodes, const char *name, size_t from, size_t step,
@@ -210,11 +201,11 @@ static void test_nodes_file_with_a_fault(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_nodes_file_and_back, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_nodes_file_and_back, set_up, remove_folder),
         cmocka_unit_test(test_nodes_reordered),
         cmocka_unit_test(test_nodes_faults_are_named),
-        cmocka_unit_test_setup_teardown(test_nodes_file_cut, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_nodes_file_with_a_fault, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_nodes_file_cut, set_up, remove_folder),
+        cmocka_unit_test_setup_teardown(test_nodes_file_with_a_fault, set_up, remove_folder),
     };
     kr_run_tests(tests);
 }

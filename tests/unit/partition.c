@@ -5,7 +5,6 @@
  */
 #include "test.h"
 
-#include "base/error.h"
 #include "partition.h"
 #include "plates.h"
 

@@ -4,7 +4,7 @@
  */
 #include "test.h"
 
-#include "case.h"
+#include "case_check.h"
 
 static const char body[] = "geometry: {width: 50 mm, height: 25 mm}\n"
                            "mesh: {spacing: 0.1 mm}\n"

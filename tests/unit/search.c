@@ -22,6 +22,7 @@ static void check_search(int dim, double reach, double aspect) {
     uint64_t seed = 17;
     size_t pairs = 0;
     int near[MOST];
+    struct kr_found all = {0};
     for (size_t k = 0; k < (size_t)dim * MOST; k++)
         position[k] = kr_random(&seed, -0.3, 0.7) * (k % (size_t)dim ? 1 : aspect);
     struct kr_search *search = kr_search_create(dim, MOST, position, reach);
@@ -34,11 +35,16 @@ static void check_search(int dim, double reach, double aspect) {
                 assert_int_equal(near[expected++], j); /* ascending */
             }
         assert_int_equal(found, expected);
+        kr_search_find(search, i, &all);
+        assert_int_equal(all.count, found);
+        if (found)
+            assert_memory_equal(all.near, near, found * sizeof *near);
         if (found > 1)
             assert_int_equal(kr_search_near(search, i, near, 1), found); /* counts without room */
         pairs += found;
     }
     kr_figure("%dD, reach %.2f: %.1f neighbours a point", dim, reach, (double)pairs / MOST);
+    kr_free(all.near);
     kr_search_free(search);
 }
 
