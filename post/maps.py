@@ -6,7 +6,7 @@ from matplotlib.patches import Circle
 from raster import raster
 from results import Fault
 from shape import AXES, frame, is_moved, is_solid, shape_of, shown
-from style import DAMAGE, DPI, ENERGY, SIGNED, WIDTH, WISH, plt
+from style import DAMAGE, DPI, ENERGY, SIGNED, WIDTH, WISH, plt, write
 
 
 def rows_of(case, columns):
@@ -183,8 +183,7 @@ def map_times(case, field, chosen, columns=None):
 
 def save(case, figure, name):
     path = case.path("pictures/%s.%s" % (name, WISH["format"]))
-    figure.savefig(path, dpi=WISH["dpi"])
-    plt.close(figure)
+    write(figure, path)
     return path
 
 

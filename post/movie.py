@@ -4,6 +4,9 @@
 The frame with its axes and colour bars is drawn once; each output only pastes its pixels into it,
 so that the time goes into reading and encoding.
 """
+import ctypes
+import os
+import signal
 import subprocess
 
 import numpy as np
@@ -90,6 +93,11 @@ def frames(case, fields, scales):
         yield image.tobytes()
 
 
+def end_with_us():
+    """In ffmpeg's process, before it is ffmpeg: it is killed when we are."""
+    ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
+
+
 def film(case, names, file):
     """Pipe the frames through ffmpeg. A film that fails is told, and no reason to fail."""
     fields = [Field(case, name) for name in names]
@@ -102,9 +110,9 @@ def film(case, names, file):
     command = ["ffmpeg", "-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24",
                "-s", "%dx%d" % (columns, rows), "-r", "%.3f" % rate, "-i", "-", "-an",
                "-c:v", "libx264", "-preset", "veryfast", "-crf", "18", "-pix_fmt", "yuv420p",
-               "-movflags", "+faststart", path]
+               "-movflags", "+faststart", "-f", "mp4", path + ".tmp"]
     try:
-        process = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE)
+        process = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=end_with_us)
     except OSError as fault:
         warn("no film: cannot start ffmpeg (%s); Debian's package ffmpeg has it" % fault.strerror)
         return None
@@ -117,6 +125,7 @@ def film(case, names, file):
     if process.returncode != 0:
         warn("no film: ffmpeg failed: %s" % (said[-1] if said else process.returncode))
         return None
+    os.replace(path + ".tmp", path)  # killed before, ffmpeg would end a shorter film that looks like a whole one
     return path
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from maps import outline_material, paint, show
 from shape import frame
 from results import Case, Fault, Nothing, warn
-from style import DAMAGE, DPI, WIDTH, WISH, open_axes, plt
+from style import DAMAGE, DPI, WIDTH, WISH, open_axes, plt, write
 
 MOST = 40  # maps on the sheet; more are too small to be read
 
@@ -24,8 +24,7 @@ def table_of(folder):
 def save(figure, folder, name):
     os.makedirs(os.path.join(folder, "pictures"), exist_ok=True)
     path = os.path.join(folder, "pictures", name + "." + WISH["format"])
-    figure.savefig(path, dpi=WISH["dpi"])
-    plt.close(figure)
+    write(figure, path)
     print(path, flush=True)
 
 

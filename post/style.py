@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How all pictures look: sizes, colours, colour maps that the colour-blind can read."""
+import os
+
 import matplotlib
 
 matplotlib.use("Agg")  # no display is needed
@@ -32,6 +34,13 @@ plt.rcParams.update({
     "axes.linewidth": 0.6, "xtick.major.width": 0.6, "ytick.major.width": 0.6,
     "lines.linewidth": 1.1, "axes.prop_cycle": plt.cycler(color=COLOURS), "savefig.dpi": DPI,
 })
+
+
+def write(figure, path):
+    """The picture appears whole or not at all; the figure is done with."""
+    figure.savefig(path + ".tmp", format=WISH["format"], dpi=WISH["dpi"])
+    os.replace(path + ".tmp", path)
+    plt.close(figure)
 
 
 def open_axes(axes):

@@ -5,7 +5,7 @@ end with exit 6 and a sentence, and leave no file under its own name that is not
     allocations.py RUNS FOLDER PROGRAM ARGUMENT...
 
 FOLDER holds what the program reads, and is copied anew each time; {} in an argument stands for the copy. RUNS: about so
-many N, spread evenly, from a random one on; 0: every N. Prints how many were tried."""
+many N, spread evenly, from a random one on, and the last ones; 0: every N. Prints how many were tried."""
 import os
 import random
 import shutil
@@ -17,6 +17,7 @@ import h5py
 
 runs, folder, command = int(sys.argv[1]), sys.argv[2], sys.argv[3:]
 WHOLE = tempfile.mkdtemp()
+LAST = 15  # results are written towards the end: these are always tried
 
 
 def run(n, to):
@@ -68,7 +69,7 @@ def check(n):
 last = last_site()
 run(0, WHOLE)
 step = max(1, last // runs) if runs else 1
-tried = range(random.randint(1, step), last + 1, step)
+tried = sorted({*range(random.randint(1, step), last + 1, step), *range(max(1, last - LAST), last + 1)})
 for n in tried:
     check(n)
 program = os.path.basename(next(word for word in command if os.path.basename(word).startswith("kirsch-")))

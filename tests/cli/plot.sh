@@ -100,6 +100,25 @@ assert abs(higher - pixels * 20 * 0.005 * (25 + 4)) < 3, (higher, pixels)
 END
 }
 draws_the_tree() { plot tree && is_png tree 10000; }
+# A film and a picture that are not done: nothing stands under their names but what stood there before.
+killed_film() {
+    mkdir -p "$work/odd" && mkdir -p "$run/pictures" && echo before >"$run/pictures/crack.mp4" || return
+    printf '#!/bin/sh\nfor last; do :; done\necho half >"$last"\necho $$ >"%s"\nkill -9 $PPID\nexec sleep 600\n' \
+        "$work/odd/pid" >"$work/odd/ffmpeg" && chmod +x "$work/odd/ffmpeg"
+    env PATH="$work/odd:$PATH" "$build/kirsch-plot" --output "$run" "$run/case.yaml" crack
+    [ $? = 137 ] || return
+    [ "$(cat "$run/pictures/crack.mp4")" = before ] || return
+    for wait in $(seq 200); do # ffmpeg is ended with the program that feeds it
+        kill -0 "$(cat "$work/odd/pid")" 2>/dev/null || return 0
+        sleep 0.05
+    done
+    kill -9 "$(cat "$work/odd/pid")"
+    return 1
+}
+picture_on_a_full_disk() {
+    mkdir -p "$run/pictures" && echo before >"$run/pictures/tip.png" &&
+        (ulimit -f 8 && told 3 'File too large' plot tip) && [ "$(cat "$run/pictures/tip.png")" = before ]
+}
 without_ffmpeg() { # a PATH on which there is none
     told 0 'warning: no film: cannot start ffmpeg' env PATH="$work" "$build/kirsch-plot" \
         --output "$run" "$run/case.yaml" tip crack
@@ -196,6 +215,8 @@ check refuses_a_wrong_time told 2 'at: found `soon`, expected a time in us' "$bu
 check refuses_an_unknown_field told 2 'unknown field `Damge`; the run has Damage' plot --field Damge
 check refuses_an_unknown_picture told 2 'unknown picture `dammage`' plot dammage
 check goes_on_without_ffmpeg without_ffmpeg
+check film_whose_making_is_killed killed_film
+check picture_on_a_full_disk picture_on_a_full_disk
 check goes_on_without_tips without_tips
 check tells_a_cut_run cut_run
 check tells_that_nothing_broke with_run "f['crack/Damage_Time'][:] = float('inf')" sees_nothing
