@@ -5,8 +5,8 @@
  * waits for ever. Both survive execve: the kernel keeps them, even if the child hangs in a loop of its own.
  *
  * gmsh orders some of its work by the addresses of its objects. So that a region is filled the same
- * way every time, a child starts with an empty environment (no MALLOC_... or LD_PRELOAD) and
- * without random addresses.
+ * way every time, a child starts with an empty environment (no MALLOC_... or LD_PRELOAD), without
+ * random addresses, and from a path that is the same everywhere.
  */
 #include "base/child.h"
 
@@ -51,9 +51,31 @@ void kr_child_prepare(struct kr_child *child) {
     *child = (struct kr_child){0, file_in_memory(), file_in_memory(), file_in_memory(), 0};
 }
 
+/** In the child: what is to run, and in which way. */
+struct program {
+    char *const *word, *const *environment;
+    int in_memory; /* from a copy, at the root of the file system */
+};
+
+/** Run a copy of the program in memory, which has the same path everywhere. */
+static void run_copy(const struct program *program) {
+    enum { COPY = 3 };
+    char part[1 << 16];
+    ssize_t n;
+    int from = open(program->word[0], O_RDONLY | O_CLOEXEC), to = memfd_create("kirsch", 0);
+    if (from < 0 || to < 0)
+        return;
+    while ((n = read(from, part, sizeof part)) > 0)
+        if (write(to, part, (size_t)n) != n)
+            return;
+    char *word[] = {"kirsch", NULL};
+    if (n == 0 && chdir("/") == 0 && dup2(to, COPY) == COPY)
+        execve("/proc/self/fd/3", word, program->environment);
+}
+
 /** In the child: only calls that are safe between fork and exec. */
-_Noreturn static void become(char *const *word, char *const *environment, const int file[3],
-                             unsigned seconds, pid_t parent) {
+_Noreturn static void become(const struct program *program, const int file[3], unsigned seconds,
+                             pid_t parent) {
     sigset_t none;
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, NULL);
@@ -70,25 +92,14 @@ _Noreturn static void become(char *const *word, char *const *environment, const 
         if (dup2(file[k], k) < 0)
             _exit(NOT_STARTED);
     personality(ADDR_NO_RANDOMIZE); /* where this is forbidden, nothing is lost but certainty */
-    execve(word[0], word, environment);
+    if (program->in_memory)
+        run_copy(program);
+    else
+        execve(program->word[0], program->word, program->environment);
     _exit(NOT_STARTED);
 }
 
-void kr_child_start(struct kr_child *child, const char *program, unsigned seconds) {
-    char *word[] = {(char *)(uintptr_t)program, NULL};
-    kr_child_start_words(child, word, seconds);
-}
-
-void kr_child_start_words(struct kr_child *child, char *const *word, unsigned seconds) {
-    const char *libraries = getenv("LD_LIBRARY_PATH");
-    char *kept = libraries ? kr_text("LD_LIBRARY_PATH=%s", libraries) : NULL;
-    char *environment[] = {kept, NULL};
-    kr_child_start_in(child, word, environment, seconds);
-    kr_free(kept);
-}
-
-void kr_child_start_in(struct kr_child *child, char *const *word, char *const *environment,
-                       unsigned seconds) {
+static void launch(struct kr_child *child, struct program program, unsigned seconds) {
     int file[3] = {fileno(child->in), fileno(child->out), fileno(child->said)};
     pid_t parent = getpid();
     fflush(NULL);
@@ -101,9 +112,30 @@ void kr_child_start_in(struct kr_child *child, char *const *word, char *const *e
     child->started = kr_child_clock();
     child->pid = fork();
     if (child->pid < 0)
-        kr_stop(KR_EXIT_LIBRARY, "%s cannot be started: %s", word[0], strerror(errno));
+        kr_stop(KR_EXIT_LIBRARY, "%s cannot be started: %s", program.word[0], strerror(errno));
     if (child->pid == 0)
-        become(word, environment, file, seconds, parent);
+        become(&program, file, seconds, parent);
+}
+
+static void launch_bare(struct kr_child *child, char *const *word, int in_memory, unsigned seconds) {
+    const char *libraries = getenv("LD_LIBRARY_PATH");
+    char *kept = libraries ? kr_text("LD_LIBRARY_PATH=%s", libraries) : NULL;
+    char *environment[] = {kept, NULL};
+    launch(child, (struct program){word, environment, in_memory}, seconds);
+    kr_free(kept);
+}
+
+void kr_child_start(struct kr_child *child, const char *program, unsigned seconds) {
+    launch_bare(child, (char *[]){(char *)(uintptr_t)program, NULL}, 1, seconds);
+}
+
+void kr_child_start_words(struct kr_child *child, char *const *word, unsigned seconds) {
+    launch_bare(child, word, 0, seconds);
+}
+
+void kr_child_start_in(struct kr_child *child, char *const *word, char *const *environment,
+                       unsigned seconds) {
+    launch(child, (struct program){word, environment, 0}, seconds);
 }
 
 pid_t kr_child_wait(int *status) {

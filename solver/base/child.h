@@ -19,12 +19,14 @@ struct kr_child {
  *  memory for them. */
 void kr_child_prepare(struct kr_child *child);
 
-/** Start `program` on what was written, with no environment but LD_LIBRARY_PATH. After `seconds` of
- * processor time, or twenty times as many by the clock, the system ends it; it also ends with its parent. Stops (exit 5) where no process can
- * be made. */
+/** Start `program` on what was written, from a copy in memory, in the folder / and with no environment but
+ * LD_LIBRARY_PATH: gmsh's cells hang on where it allocates, and so on the lengths of its own path and of its folder.
+ * After `seconds` of processor time, or twenty times as many by the clock, the system ends it; it also ends with its
+ * parent. Stops (exit 5) where no process can be made. */
 void kr_child_start(struct kr_child *child, const char *program, unsigned seconds);
 
-/** The same with arguments: `word` is the program, its arguments, NULL. */
+/** The same with arguments, from where the program lies and in the folder of the caller: `word` is the program, its
+ * arguments, NULL. */
 void kr_child_start_words(struct kr_child *child, char *const *word, unsigned seconds);
 
 /** The same in an environment of the caller's choice, "NAME=value" and NULL at the end. With 0

@@ -63,8 +63,20 @@ kirsch_gmsh_alone_says_what_it_is() {
     stops 1 "this program is run by kirsch-mesh" "$build/kirsch-gmsh" </dev/null
 }
 
+# gmsh's cells must not hang on where the programs lie, nor on the folder in which they are started.
+wherever_the_programs_lie() {
+    for folder in a build a/folder/with/a/much/longer/name; do
+        mkdir -p "$work/bin/$folder" "$work/cells" &&
+            cp "$build/kirsch-mesh" "$build/kirsch-gmsh" "$work/bin/$folder/" || return
+        deck=$PWD/cases/hole-failure/case.yaml
+        (cd "$work/bin/$folder" && ./kirsch-mesh --output "$work/cells" "$deck") || return
+        [ -e "$work/first.msh" ] || cp "$work/cells/plate.msh" "$work/first.msh"
+        cmp "$work/cells/plate.msh" "$work/first.msh" || return
+    done
+}
+
 for name in pores_are_written the_same_seed_writes_the_same_bytes too_many_pores_stop \
-    the_mesh_is_written_with_its_report two_meshings_are_equal missing_pores_stop \
+    the_mesh_is_written_with_its_report two_meshings_are_equal wherever_the_programs_lie missing_pores_stop \
     a_spacing_that_does_not_fit_stops explain_writes_nothing a_missing_kirsch_gmsh_is_told \
     kirsch_gmsh_alone_says_what_it_is; do
     check $name $name
