@@ -7,11 +7,12 @@
 #include "base/error.h"
 #include "base/progress.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { MOST_STEPS = 20000 };
 
-/* Newton ends quickly from here; motion would need ten times the steps for each digit more. */
+/* Newton mostly ends quickly from here; motion needs some ten times the steps for each digit more. */
 static const double NEARLY = 0.01;
 
 static void stand_still(struct kr_body *body) {
@@ -26,12 +27,12 @@ static void hold_supports(struct kr_equilibrium *q) {
                 q->body->force[d][i] = 0;
 }
 
-/* Damped motion, supports at rest, until it is nearly over; returns how many steps it took. */
-static int relax(struct kr_equilibrium *q, double dt) {
+/* Damped motion, supports at rest, down to this residual; returns how many steps it took. */
+static int relax(struct kr_equilibrium *q, double dt, double residual) {
     struct kr_progress progress = kr_progress_begin("relaxation", 0, 0);
     int k = 0;
     stand_still(q->body);
-    for (; k < MOST_STEPS && kr_equilibrium_residual(q) >= NEARLY; k++) {
+    for (; k < MOST_STEPS && kr_equilibrium_residual(q) >= residual; k++) {
         if (q->stop && q->stop(q->stop_with))
             break;
         kr_rest_damp(q->rest);
@@ -46,11 +47,15 @@ static int relax(struct kr_equilibrium *q, double dt) {
 }
 
 enum kr_equilibrium_end kr_settle(struct kr_equilibrium *q, double safe_step) {
-    if (kr_equilibrium_find(q) == KR_EQUILIBRIUM_FOUND || q->end == KR_EQUILIBRIUM_STOPPED)
-        return q->end;
-    int steps = relax(q, KR_REST_STEP * safe_step);
-    if (!q->quiet)
-        kr_say("  a snap: no equilibrium near by, %d steps of damped motion to a residual of %.1e", steps,
-               q->rest->residual);
-    return kr_equilibrium_find(q);
+    double nearly = NEARLY;
+    while (kr_equilibrium_find(q) != KR_EQUILIBRIUM_FOUND && q->end != KR_EQUILIBRIUM_STOPPED) {
+        if (nearly < 0.1 * q->tolerance)
+            break;
+        int steps = relax(q, KR_REST_STEP * safe_step, fmax(nearly, 0.5 * q->tolerance));
+        if (!q->quiet)
+            kr_say("  a snap: no equilibrium near by, %d steps of damped motion to a residual of %.1e", steps,
+                   q->rest->residual);
+        nearly *= 0.1;
+    }
+    return q->end;
 }

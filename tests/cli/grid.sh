@@ -62,16 +62,16 @@ slices_fill_the_plane() {
         PYTHONPATH="$build" /usr/bin/python3 -B - "$work/block" $grid <<'PYTHON' || return
 import sys, numpy as np
 from results import Case
-import grid
+import section
 case = Case(sys.argv[1], [], [])
 point, first, vertex, volume, spacing = case.cells()
 height = point[:, 2] - 2.3 - 1e-9
-seen = grid.cells_across(point, first, vertex, height, np.zeros(3), 99, [0, 1])
-solids, owners, faces = grid.pieces(first, vertex, seen)
-polygons, of = grid.cut_tetrahedra(point, height, solids, owners, [0, 1])
+seen = section.cells_across(point, first, vertex, height, np.zeros(3), 99, [0, 1])
+solids, owners, faces = section.pieces(first, vertex, seen)
+polygons, of = section.cut_tetrahedra(point, height, solids, owners, [0, 1])
 area = sum(abs(np.sum(p[:, 0]*np.roll(p[:, 1], -1) - p[:, 1]*np.roll(p[:, 0], -1)))/2 for p in polygons)
 exact = 30 - np.pi*(1.44 - 0.09) - np.pi*0.8*1.1*(1 - 0.09)
-lines = np.array(grid.cut_faces(point, height, faces, [0, 1]))
+lines = np.array(section.cut_faces(point, height, faces, [0, 1]))
 length = np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1)
 rim = length[(np.abs(lines[:, :, 0]) < 1e-9).all(axis=1)].sum()
 off = area/exact - 1
