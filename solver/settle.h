@@ -9,7 +9,7 @@
 
 /** As kr_equilibrium_find; but where that finds none, the body is let go in damped motion with time steps
  *  of KR_REST_STEP `safe_step` [s], supports at rest, until it is nearly over, and Newton ends what that
- *  began. Velocities are 0 in the end. A snap is told in a line, unless q->quiet. */
+ *  began; where Newton does not, from motion that goes on ten times closer, and so on. Velocities are 0 in the end. A snap is told in a line, unless q->quiet. */
 enum kr_equilibrium_end kr_settle(struct kr_equilibrium *q, double safe_step);
 
 #endif
