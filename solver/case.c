@@ -160,6 +160,8 @@ static const struct kr_deck_key solver_keys[] = {
     {"checkpoint_every", NUMBER_OF(AT(checkpoint_every), "s"), .fallback = "600 s", NOT_NEGATIVE,
      .text = "Wall time between checkpoints, from which a stopped run goes on; 0: only when asked by "
              "a signal (SIGUSR1, or SIGTERM and SIGINT, which also stop the run)."},
+    {"checkpoint_steps", KR_DECK_INTEGER, AT(checkpoint_steps), .fallback = "0", .least = 0, .most = 1e9,
+     .text = "Steps (static: load steps) between checkpoints, besides those by time; 0: none by steps."},
     {NULL},
 };
 

@@ -256,7 +256,8 @@ struct kr_case {
     double time_step;     /* s; 0: found */
     int precision;        /* enum kr_precision */
     double safety_factor; /* of the largest stable step */
-    double checkpoint_every; /* s of wall time; 0: only on signals */
+    double checkpoint_every;  /* s of wall time; 0: only on signals */
+    int64_t checkpoint_steps; /* 0: none by steps */
 
     /* output */
     const char *folder;

@@ -125,8 +125,9 @@ void kr_records_save(struct kr_records *r, long next) {
     const struct kr_case *c = r->run->c;
     enum kr_interrupt asked = kr_interrupt_asked();
     double now = kr_progress_clock();
-    if (asked == KR_INTERRUPT_NONE &&
-        !(c->checkpoint_every > 0 && now - r->saved >= c->checkpoint_every))
+    int by_steps = c->checkpoint_steps && r->at.round == 0 && next > 0 && next % c->checkpoint_steps == 0;
+    int by_time = c->checkpoint_every > 0 && now - r->saved >= c->checkpoint_every;
+    if (asked == KR_INTERRUPT_NONE && !by_steps && !by_time)
         return;
     r->at.step = next;
     r->at.history = kr_history_bytes(r->history);

@@ -39,7 +39,7 @@ void kr_records_crack(struct kr_records *r, long step, double t);
  *  the ledger must be up to date. last: the run ends here. */
 void kr_records_write(struct kr_records *r, int output, int last, long step, double t);
 
-/** A checkpoint before step `next` of the present stage, where time or a signal asks for one; stops
+/** A checkpoint before step `next` of the present stage, where steps, time or a signal ask for one; stops
  *  (exit 7) where the latter asks for that. */
 void kr_records_save(struct kr_records *r, long next);
 

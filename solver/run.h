@@ -56,7 +56,7 @@ struct kr_records;
 int kr_run_static(struct kr_run *run, struct kr_records *records);
 
 /** Solve, and write run.h5, run.xdmf and history.csv into the case's folder. Checkpoints are written
- *  every solver.checkpoint_every of wall time and on SIGUSR1, SIGTERM and SIGINT; the last two stop the
+ *  every solver.checkpoint_every of wall time or solver.checkpoint_steps and on SIGUSR1, SIGTERM and SIGINT; the last two stop the
  *  run (exit 7). resume: go on from the last checkpoint; the results are then those of a run that never
  *  stopped, to the last bit. */
 void kr_run_solve(struct kr_run *run, const char *deck_text, int resume);

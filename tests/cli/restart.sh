@@ -153,6 +153,23 @@ asked() {
     wait $child && cmp "$work/now/history.csv" "$work/whole-plate/history.csv" && diff -r "$work/now/run" "$work/whole-plate/run"
 }
 
+# By steps: the one that is left stands at the last multiple, and the run goes on from it to the same bytes.
+by_steps() {
+    begin || return
+    rarely='solver.checkpoint_every=0 s'
+    OMP_NUM_THREADS=1 "$build/kirsch-solve" --set "$rarely" --set solver.checkpoint_steps=1700 --set "$slow" --output "$work/now" \
+        "$work/case.yaml" >"$work/solve.log" 2>&1 &
+    child=$!
+    until [ -e "$work/now/checkpoint.h5" ]; do kill -0 $child || return; sleep 0.02; done
+    kill -9 $child
+    wait $child 2>/dev/null
+    step=$(/usr/bin/python3 -c 'import h5py, sys; print(int(h5py.File(sys.argv[1]).attrs["step"]))' "$work/now/checkpoint.h5")
+    [ "$((step % 1700))" -eq 0 ] && [ "$step" -gt 0 ] || { echo "stands at step $step"; return 1; }
+    "$build/kirsch-solve" --resume --set "$rarely" --set solver.checkpoint_steps=1700 --set "$slow" --output "$work/now" \
+        "$work/case.yaml" && cmp "$work/now/history.csv" "$work/whole-plate/history.csv" &&
+        diff -r "$work/now/run" "$work/whole-plate/run"
+}
+
 # A run that is killed as soon as there is a checkpoint: what went before does not matter.
 left_one() {
     write_plate && rm -rf "$work/now" && steps "$work/now" "mesh nodes" || return
@@ -186,6 +203,7 @@ none() {
 for kind in plate static solid staged; do check "${kind}_after_kills_is_equal" killed $kind; done
 check after_a_signal_is_equal terminated
 check leaves_a_checkpoint_when_asked asked
+check by_steps by_steps
 check refuses_another_deck other_deck
 check refuses_other_nodes other_nodes
 check needs_a_checkpoint none

@@ -187,7 +187,7 @@ static const struct row {
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_section_as_a_text", "solver: {end_time: 50 us}", "solver: fast", NULL, NULL,
      "case.yaml:27:9: solver: found 'fast', expected a section with end_time, time_step, "
-     "precision, safety_factor, checkpoint_every\n"
+     "precision, safety_factor, checkpoint_every, checkpoint_steps\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_map_as_a_list",
      "  sets:\n    top: {within: 0.3 mm, of: top}\n    bottom: {within: 0.3 mm, of: bottom}",
