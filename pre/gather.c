@@ -8,64 +8,69 @@
 
 #include <string.h>
 
-/** The first room is not cleared: all of it is written, one item after the other. */
-static void *make_room(void *array, size_t count, size_t size) {
-    return array ? kr_realloc(array, count, size) : kr_alloc_raw(count, size);
+/** Give an array of `*room` items room for `needed`: just that at first, which need not be cleared because all of
+ *  it is written, later twice of what there was at least. */
+static void *make_room(void *array, size_t *room, size_t needed, size_t size) {
+    if (needed <= *room)
+        return array;
+    *room = needed > 2 * *room ? needed : 2 * *room;
+    return array ? kr_realloc(array, *room, size) : kr_alloc_raw(*room, size);
 }
 
 void kr_gather_expect_nodes(struct kr_gather *gather, size_t count) {
-    size_t room = gather->n_nodes + count;
-    if (room <= gather->nodes_room || room <= gather->points_room)
-        return;
-    gather->nodes_room = gather->points_room = room;
-    gather->node = make_room(gather->node, room, sizeof *gather->node);
-    gather->point = make_room(gather->point, 3 * room, sizeof *gather->point);
+    size_t room = gather->nodes_room, needed = gather->n_nodes + count;
+    gather->node_tag = make_room(gather->node_tag, &room, needed, sizeof *gather->node_tag);
+    gather->point = make_room(gather->point, &gather->nodes_room, needed, 3 * sizeof *gather->point);
 }
 
-static void set_pile_room(struct kr_pile *pile, size_t room) {
-    pile->room = room;
-    pile->tag = make_room(pile->tag, pile->room, sizeof *pile->tag);
-    pile->type = make_room(pile->type, pile->room, sizeof *pile->type);
-    pile->first = make_room(pile->first, pile->room, sizeof *pile->first);
+size_t kr_gather_nodes(struct kr_gather *gather, size_t count) {
+    kr_gather_expect_nodes(gather, count);
+    gather->n_nodes += count;
+    return gather->n_nodes - count;
+}
+
+static void expect(struct kr_pile *pile, const struct kr_element *kind, size_t count) {
+    pile->tag = make_room(pile->tag, &pile->room, pile->count + count, sizeof *pile->tag);
+    pile->node = make_room(pile->node, &pile->nodes_room, pile->n_nodes + kind->nodes * count, sizeof *pile->node);
 }
 
 void kr_gather_expect_elements(struct kr_gather *gather, int type, size_t count) {
     const struct kr_element *kind = kr_element(type);
-    struct kr_pile *pile = &gather->pile[kind->dim];
-    if (pile->count + count > pile->room)
-        set_pile_room(pile, pile->count + count);
-    if (pile->n_nodes + kind->nodes * count > pile->nodes_room) {
-        pile->nodes_room = pile->n_nodes + kind->nodes * count;
-        pile->node = make_room(pile->node, pile->nodes_room, sizeof *pile->node);
-    }
+    expect(&gather->pile[kind->dim], kind, count);
 }
 
-void kr_gather_node(struct kr_gather *gather, size_t tag, const double point[3]) {
-    if (gather->n_nodes == gather->points_room) {
-        gather->points_room = gather->points_room ? 2 * gather->points_room : 64;
-        gather->point = kr_realloc(gather->point, 3 * gather->points_room, sizeof(double));
-    }
-    KR_GROW(gather->node, gather->n_nodes, gather->nodes_room);
-    gather->node[gather->n_nodes] = (struct kr_gather_node){tag, gather->n_nodes};
-    memcpy(gather->point + 3 * gather->n_nodes, point, 3 * sizeof *point);
-    gather->n_nodes++;
-}
-
-size_t kr_gather_element(struct kr_gather *gather, int type, size_t tag, const size_t *node) {
+size_t kr_gather_elements(struct kr_gather *gather, int type, size_t count, const size_t *row) {
     const struct kr_element *kind = kr_element(type);
     struct kr_pile *pile = &gather->pile[kind->dim];
-    if (pile->count == pile->room)
-        set_pile_room(pile, pile->room ? 2 * pile->room : 64);
-    if (pile->n_nodes + kind->nodes > pile->nodes_room) {
-        pile->nodes_room = 2 * pile->nodes_room + 256;
-        pile->node = kr_realloc(pile->node, pile->nodes_room, sizeof *pile->node);
+    const size_t nodes = kind->nodes;
+    if (!pile->n_runs || pile->run[pile->n_runs - 1].kind != kind) {
+        KR_GROW(pile->run, pile->n_runs, pile->runs_room);
+        pile->run[pile->n_runs++] = (struct kr_run){kind, pile->count, pile->n_nodes};
     }
-    pile->tag[pile->count] = tag;
-    pile->type[pile->count] = (unsigned char)type;
-    pile->first[pile->count] = pile->n_nodes;
-    memcpy(pile->node + pile->n_nodes, node, kind->nodes * sizeof *node);
-    pile->n_nodes += kind->nodes;
-    return pile->count++;
+    expect(pile, kind, count);
+    size_t *tag = pile->tag + pile->count, *node = pile->node + pile->n_nodes;
+    for (size_t k = 0; k < count; k++, row += nodes + 1, node += nodes) {
+        tag[k] = row[0];
+        for (size_t v = 0; v < nodes; v++)
+            node[v] = row[1 + v];
+    }
+    pile->count += count;
+    pile->n_nodes += nodes * count;
+    return pile->count - count;
+}
+
+const struct kr_element *kr_pile_element(const struct kr_pile *pile, size_t k, const size_t **node) {
+    size_t low = 0, high = pile->n_runs;
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        if (pile->run[middle].element <= k)
+            low = middle;
+        else
+            high = middle;
+    }
+    const struct kr_run *run = &pile->run[low];
+    *node = pile->node + run->node + (k - run->element) * run->kind->nodes;
+    return run->kind;
 }
 
 size_t kr_gather_group(struct kr_gather *gather, int dim, int tag) {
@@ -87,8 +92,10 @@ void kr_gather_name(struct kr_gather *gather, size_t group, const char *name) {
         gather->group[group].name = kr_text_copy(name);
 }
 
-void kr_gather_member(struct kr_gather *gather, size_t group, size_t element) {
+void kr_gather_members(struct kr_gather *gather, size_t group, size_t first, size_t count) {
     struct kr_mesh_group *g = &gather->group[group];
-    KR_GROW(g->member, g->count, gather->group_room[group]);
-    g->member[g->count++] = element;
+    g->member = make_room(g->member, &gather->group_room[group], g->count + count, sizeof *g->member);
+    for (size_t k = 0; k < count; k++)
+        g->member[g->count + k] = first + k;
+    g->count += count;
 }

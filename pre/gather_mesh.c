@@ -10,7 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/** Where the elements of a pile went: the first item of the mesh, and how many. */
+/** Where the elements of a pile went: the first item of the mesh, and how many. NULL where each is one item, and
+ *  all are in their places. */
 struct laid {
     size_t *first, *count; /* (pile) */
 };
@@ -20,45 +21,75 @@ static void drop_laid(struct laid *laid) {
     kr_free(laid->count);
 }
 
-/** Vertices of a cell into the mesh; polygons counter-clockwise. */
-static size_t lay_cell(const struct kr_mesh *mesh, const struct kr_pile *pile, size_t k,
-                       size_t *vertex) {
-    const struct kr_element *kind = kr_element(pile->type[k]);
-    const size_t *node = pile->node + pile->first[k];
-    double corner[2 * KR_MOST_FACE];
+/** The vertices of a cell of this kind; polygons counter-clockwise. `vertex` may be `node`. */
+static void lay_cell(const double *point, const struct kr_element *kind, const size_t *node, size_t *vertex) {
+    size_t kept[KR_MOST_NODES];
+    double corner[2 * KR_MOST_NODES];
     for (size_t v = 0; v < kind->kept; v++)
-        vertex[v] = node[kind->keep[v]];
-    if (kind->dim == 3)
-        return kind->kept;
-    for (size_t v = 0; v < kind->kept; v++)
-        memcpy(corner + 2 * v, mesh->point + 3 * vertex[v], 2 * sizeof *corner);
-    if (kr_cell_area(kind->kept, corner) < 0)
+        kept[v] = node[kind->keep[v]];
+    for (size_t v = 0; v < kind->kept; v++) {
+        vertex[v] = kept[v];
+        corner[2 * v] = point[3 * kept[v]];
+        corner[2 * v + 1] = point[3 * kept[v] + 1];
+    }
+    if (kind->dim == 2 && kr_cell_area(kind->kept, corner) < 0)
         for (size_t v = 0; v < kind->kept; v++)
-            vertex[v] = node[kind->keep[kind->kept - 1 - v]];
-    return kind->kept;
+            vertex[v] = kept[kind->kept - 1 - v];
 }
 
-static struct laid lay_cells(const struct kr_gather *gather, struct kr_mesh *mesh) {
-    const struct kr_pile *pile = &gather->pile[mesh->dim];
-    size_t *order = kr_gather_order(gather, pile), *stands = kr_gather_merge(gather, mesh->dim);
-    struct laid laid = {KR_NEW(size_t, pile->count), KR_NEW(size_t, pile->count)};
-    mesh->first = kr_realloc(mesh->first, pile->count + 1, sizeof *mesh->first);
+/** Cells in the order of the file: their vertices take the place of their nodes. */
+static void lay_in_place(struct kr_pile *pile, struct kr_mesh *mesh) {
+    size_t n = 0;
+    for (size_t r = 0; r < pile->n_runs; r++) {
+        const struct kr_run *run = &pile->run[r];
+        const struct kr_element *kind = run->kind;
+        const size_t *node = pile->node + run->node;
+        const size_t end = r + 1 < pile->n_runs ? run[1].element : pile->count;
+        for (size_t k = run->element; k < end; k++, n += kind->kept, node += kind->nodes) {
+            lay_cell(mesh->point, kind, node, pile->node + n);
+            mesh->first[k + 1] = n + kind->kept;
+        }
+    }
+    mesh->n_cells = pile->count;
+    mesh->vertex = pile->node;
+    mesh->cell_tag = (int64_t *)pile->tag; /* none is negative */
+    pile->node = pile->tag = NULL;
+}
+
+/** Cells by their numbers, each once. */
+static struct laid lay_in_order(const struct kr_pile *pile, struct kr_mesh *mesh, const size_t *order,
+                                const size_t *stands) {
+    struct laid laid = {KR_NEW_RAW(size_t, pile->count), NULL};
     mesh->vertex = KR_NEW_RAW(size_t, pile->n_nodes);
     mesh->cell_tag = KR_NEW_RAW(int64_t, pile->count);
     for (size_t k = 0; k < pile->count; k++) {
-        size_t e = order[k], c = mesh->n_cells;
-        if (stands[e] != e)
+        size_t e = order ? order[k] : k, c = mesh->n_cells;
+        const size_t *node;
+        if (stands && stands[e] != e)
             continue;
+        const struct kr_element *kind = kr_pile_element(pile, e, &node);
+        lay_cell(mesh->point, kind, node, mesh->vertex + mesh->first[c]);
         laid.first[e] = c;
         mesh->cell_tag[c] = (int64_t)pile->tag[e];
-        mesh->first[c + 1] =
-            mesh->first[c] + lay_cell(mesh, pile, e, mesh->vertex + mesh->first[c]);
+        mesh->first[c + 1] = mesh->first[c] + kind->kept;
         mesh->n_cells++;
     }
-    for (size_t k = 0; k < pile->count; k++) {
+    for (size_t k = 0; stands && k < pile->count; k++)
         laid.first[k] = laid.first[stands[k]];
-        laid.count[k] = 1;
-    }
+    return laid;
+}
+
+static struct laid lay_cells(struct kr_gather *gather, struct kr_mesh *mesh) {
+    struct kr_pile *pile = &gather->pile[mesh->dim];
+    size_t *order = kr_gather_order(gather, pile), *stands = kr_gather_merge(gather, mesh->dim);
+    struct laid laid = {NULL, NULL};
+    kr_free(mesh->first);
+    mesh->first = KR_NEW_RAW(size_t, pile->count + 1);
+    mesh->first[0] = 0;
+    if (order || stands)
+        laid = lay_in_order(pile, mesh, order, stands);
+    else
+        lay_in_place(pile, mesh);
     kr_free(order);
     kr_free(stands);
     return laid;
@@ -66,8 +97,8 @@ static struct laid lay_cells(const struct kr_gather *gather, struct kr_mesh *mes
 
 /** Lay one facet; returns how many it made: a line with a node in its middle is two edges. */
 static size_t lay_facet(struct kr_mesh *mesh, const struct kr_pile *pile, size_t k) {
-    const struct kr_element *kind = kr_element(pile->type[k]);
-    const size_t *node = pile->node + pile->first[k];
+    const size_t *node;
+    const struct kr_element *kind = kr_pile_element(pile, k, &node);
     if (kind->dim == 1) {
         for (size_t v = 0; v + 1 < kind->kept; v++) {
             mesh->edge[2 * mesh->n_edges] = node[kind->keep[v]];
@@ -84,15 +115,23 @@ static size_t lay_facet(struct kr_mesh *mesh, const struct kr_pile *pile, size_t
     return 1;
 }
 
+/** Which facets are in a group, by those that stand for them. Owned by the caller. */
+static unsigned char *find_used(const struct kr_gather *gather, int dim, const size_t *stands) {
+    unsigned char *is_used = KR_NEW(unsigned char, gather->pile[dim].count);
+    for (size_t g = 0; g < gather->n_groups; g++)
+        for (size_t k = 0; gather->group[g].dim == dim && k < gather->group[g].count; k++) {
+            size_t e = gather->group[g].member[k];
+            is_used[stands ? stands[e] : e] = 1;
+        }
+    return is_used;
+}
+
 static struct laid lay_facets(const struct kr_gather *gather, struct kr_mesh *mesh) {
     int dim = mesh->dim - 1;
     const struct kr_pile *pile = &gather->pile[dim];
     size_t *order = kr_gather_order(gather, pile), *stands = kr_gather_merge(gather, dim);
     struct laid laid = {KR_NEW(size_t, pile->count), KR_NEW(size_t, pile->count)};
-    unsigned char *is_used = KR_NEW(unsigned char, pile->count);
-    for (size_t g = 0; g < gather->n_groups; g++)
-        for (size_t k = 0; gather->group[g].dim == dim && k < gather->group[g].count; k++)
-            is_used[stands[gather->group[g].member[k]]] = 1;
+    unsigned char *is_used = find_used(gather, dim, stands);
     if (dim == 1) {
         mesh->edge = KR_NEW(size_t, 2 * pile->n_nodes);
     } else {
@@ -100,13 +139,13 @@ static struct laid lay_facets(const struct kr_gather *gather, struct kr_mesh *me
         mesh->face = KR_NEW(size_t, pile->n_nodes);
     }
     for (size_t k = 0; k < pile->count; k++) {
-        size_t e = order[k];
-        if (stands[e] != e || !is_used[e])
+        size_t e = order ? order[k] : k;
+        if (!is_used[e]) /* and so are those for which another stands */
             continue;
         laid.first[e] = dim == 1 ? mesh->n_edges : mesh->n_faces;
         laid.count[e] = lay_facet(mesh, pile, e);
     }
-    for (size_t k = 0; k < pile->count; k++) {
+    for (size_t k = 0; stands && k < pile->count; k++) {
         laid.first[k] = laid.first[stands[k]];
         laid.count[k] = laid.count[stands[k]];
     }
@@ -138,12 +177,16 @@ static void tidy(struct kr_mesh_group *group) {
 /** Members of a group of cells or facets: from places in the pile to those in the mesh. */
 static void lay_members(struct kr_mesh_group *group, const struct laid *laid) {
     size_t total = 0, n = 0;
+    if (!laid->first)
+        return;
     for (size_t k = 0; k < group->count; k++)
-        total += laid->count[group->member[k]];
+        total += laid->count ? laid->count[group->member[k]] : 1;
     size_t *member = KR_NEW_RAW(size_t, total);
-    for (size_t k = 0; k < group->count; k++)
-        for (size_t i = 0; i < laid->count[group->member[k]]; i++)
-            member[n++] = laid->first[group->member[k]] + i;
+    for (size_t k = 0; k < group->count; k++) {
+        size_t e = group->member[k], count = laid->count ? laid->count[e] : 1;
+        for (size_t i = 0; i < count; i++)
+            member[n++] = laid->first[e] + i;
+    }
     kr_free(group->member);
     group->member = member;
     group->count = total;
@@ -152,13 +195,14 @@ static void lay_members(struct kr_mesh_group *group, const struct laid *laid) {
 /** Members of a group of lower dimension: the points of its elements. */
 static void lay_points(const struct kr_pile *pile, struct kr_mesh_group *group) {
     size_t total = 0, n = 0;
+    const size_t *node;
     for (size_t k = 0; k < group->count; k++)
-        total += kr_element(pile->type[group->member[k]])->nodes;
+        total += kr_pile_element(pile, group->member[k], &node)->nodes;
     size_t *member = KR_NEW(size_t, total);
     for (size_t k = 0; k < group->count; k++) {
-        size_t e = group->member[k];
-        for (size_t v = 0; v < kr_element(pile->type[e])->nodes; v++)
-            member[n++] = pile->node[pile->first[e] + v];
+        size_t count = kr_pile_element(pile, group->member[k], &node)->nodes;
+        for (size_t v = 0; v < count; v++)
+            member[n++] = node[v];
     }
     kr_free(group->member);
     group->member = member;
@@ -190,26 +234,29 @@ static void lay_groups(struct kr_gather *gather, struct kr_mesh *mesh, const str
         }
 }
 
-static int has_inner_points(const struct kr_pile *pile) {
-    for (size_t k = 0; k < pile->count; k++)
-        if (kr_element(pile->type[k])->kept < kr_element(pile->type[k])->nodes)
-            return 1;
-    return 0;
+/** The points (1) of cells that have nodes inside of faces or of themselves, such as the ninth node of a
+ *  quadrilateral; NULL where there are no such cells. Owned by the caller. */
+static unsigned char *find_inner_points(const struct kr_gather *gather, int dim) {
+    const struct kr_pile *pile = &gather->pile[dim];
+    unsigned char *is_inner = NULL;
+    for (size_t r = 0; r < pile->n_runs; r++) {
+        const struct kr_run *run = &pile->run[r];
+        const size_t end = r + 1 < pile->n_runs ? run[1].node : pile->n_nodes;
+        if (run->kind->kept == run->kind->nodes)
+            continue;
+        if (!is_inner)
+            is_inner = KR_NEW(unsigned char, gather->n_nodes);
+        for (size_t k = run->node; k < end; k++)
+            is_inner[pile->node[k]] = 1;
+    }
+    return is_inner;
 }
 
-/** Take out points that are no vertex of anything but stood inside an element of the file, such as
- *  the ninth node of a quadrilateral: they have done their duty. */
-static void drop_inner_points(const struct kr_gather *gather, struct kr_mesh *mesh) {
-    const struct kr_pile *pile = &gather->pile[mesh->dim];
+/** Take out those of them that are no vertex of anything: they have done their duty. */
+static void drop_inner_points(unsigned char *is_inner, struct kr_mesh *mesh) {
     size_t inner = 0;
-    if (!has_inner_points(pile))
+    if (!is_inner)
         return;
-    unsigned char *is_inner = KR_NEW(unsigned char, mesh->n_points);
-    for (size_t k = 0; k < pile->count; k++) {
-        const struct kr_element *kind = kr_element(pile->type[k]);
-        for (size_t v = 0; v < kind->nodes; v++)
-            is_inner[pile->node[pile->first[k] + v]] = kind->kept < kind->nodes;
-    }
     for (size_t k = 0; k < mesh->first[mesh->n_cells]; k++)
         is_inner[mesh->vertex[k]] = 0;
     for (size_t p = 0; p < mesh->n_points; p++)
@@ -220,13 +267,10 @@ static void drop_inner_points(const struct kr_gather *gather, struct kr_mesh *me
 }
 
 static void free_gather(struct kr_gather *gather) {
-    kr_free(gather->node);
-    kr_free(gather->point);
     for (int dim = 0; dim < 4; dim++) {
         kr_free(gather->pile[dim].tag);
-        kr_free(gather->pile[dim].type);
-        kr_free(gather->pile[dim].first);
         kr_free(gather->pile[dim].node);
+        kr_free(gather->pile[dim].run);
     }
     kr_free(gather->group);
     kr_free(gather->group_room);
@@ -244,15 +288,13 @@ struct kr_mesh *kr_gather_finish(struct kr_gather *gather) {
     kr_gather_resolve(gather);
     mesh->n_points = gather->n_nodes;
     mesh->point = gather->point;
-    mesh->point_tag = KR_NEW_RAW(int64_t, mesh->n_points);
-    for (size_t k = 0; k < gather->n_nodes; k++)
-        mesh->point_tag[gather->node[k].place] = (int64_t)gather->node[k].tag;
-    gather->point = NULL;
+    mesh->point_tag = (int64_t *)gather->node_tag; /* none is negative */
+    unsigned char *is_inner = find_inner_points(gather, mesh->dim);
     struct laid cells = lay_cells(gather, mesh), facets = lay_facets(gather, mesh);
     lay_groups(gather, mesh, &cells, &facets);
     drop_laid(&cells);
     drop_laid(&facets);
-    drop_inner_points(gather, mesh);
+    drop_inner_points(is_inner, mesh);
     free_gather(gather);
     kr_mesh_resolve_points(mesh);
     return mesh;

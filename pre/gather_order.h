@@ -7,15 +7,16 @@
 
 #include "gather.h"
 
-/** Sort the nodes by their numbers, and put places instead of numbers into the piles. Stops (exit 2) where a number
- *  stands twice or is missing. */
+/** Put places instead of numbers of nodes into the piles. Stops (exit 2) where a number stands twice or is missing. */
 void kr_gather_resolve(struct kr_gather *gather);
 
-/** The order of a pile by ascending numbers, owned by the caller; stops (exit 2) where one stands twice. */
+/** The order of a pile by ascending numbers, owned by the caller; NULL where it stands in it. Stops (exit 2) where
+ *  one stands twice. */
 size_t *kr_gather_order(const struct kr_gather *gather, const struct kr_pile *pile);
 
 /** For each element of a dimension the first one with the same nodes, which stands for it: itself as a rule. An
- *  element in two groups is written once a group by MSH 2.2. Owned by the caller. */
+ *  element in two groups is written once a group by MSH 2.2. Owned by the caller; NULL where each stands for
+ *  itself. */
 size_t *kr_gather_merge(const struct kr_gather *gather, int dim);
 
 #endif

@@ -14,14 +14,13 @@ void kr_msh2_nodes(struct kr_msh *msh) {
     size_t n = kr_scan_count(scan, 4, "the number of nodes");
     scan->is_binary = was_binary;
     scan->at += was_binary;
-    kr_gather_expect_nodes(&msh->gather, n);
-    for (size_t k = 0; k < n; k++) {
-        double point[3];
+    size_t first = kr_gather_nodes(&msh->gather, n);
+    for (size_t k = first; k < first + n; k++) {
         int tag = kr_scan_int(scan, "the number of a node");
         if (tag < 0)
             kr_scan_bad(scan, "the number of a node is negative: %d", tag);
-        kr_scan_doubles(scan, 3, point, "a coordinate of a node");
-        kr_gather_node(&msh->gather, (size_t)tag, point);
+        msh->gather.node_tag[k] = (size_t)tag;
+        kr_scan_doubles(scan, 3, msh->gather.point + 3 * k, "a coordinate of a node");
     }
 }
 
@@ -30,7 +29,7 @@ void kr_msh2_nodes(struct kr_msh *msh) {
 static void read_element(struct kr_msh *msh, int type, const struct kr_element *kind, int number,
                          int tags) {
     struct kr_scan *scan = &msh->scan;
-    size_t node[KR_MOST_NODES] = {0};
+    size_t row[1 + KR_MOST_NODES] = {(size_t)number};
     int group = 0;
     for (int k = 0; k < tags; k++) {
         int tag = kr_scan_int(scan, "a tag of an element");
@@ -40,11 +39,11 @@ static void read_element(struct kr_msh *msh, int type, const struct kr_element *
         int tag = kr_scan_int(scan, "a node of an element");
         if (tag < 0)
             kr_scan_bad(scan, "a node of an element is negative: %d", tag);
-        node[c] = (size_t)tag;
+        row[1 + c] = (size_t)tag;
     }
-    size_t place = kr_gather_element(&msh->gather, type, (size_t)number, node);
+    size_t place = kr_gather_elements(&msh->gather, type, 1, row);
     if (group)
-        kr_gather_member(&msh->gather, kr_msh_group(msh, kind->dim, group), place);
+        kr_gather_members(&msh->gather, kr_msh_group(msh, kind->dim, group), place, 1);
 }
 
 static int read_number(struct kr_scan *scan) {

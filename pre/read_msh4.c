@@ -6,6 +6,10 @@
 
 #include "base/memory.h"
 
+#include <string.h>
+
+enum { MOST_ROWS = 16 }; /* elements of the most nodes that are read at once */
+
 static void read_entity(struct kr_msh *msh, int dim) {
     struct kr_scan *scan = &msh->scan;
     struct kr_msh_entity entity = {dim, kr_scan_int(scan, "the number of an entity"), 0, NULL};
@@ -44,14 +48,18 @@ static void read_nodes_of_block(struct kr_msh *msh, size_t *left) {
     if (count > *left)
         kr_scan_bad(scan, "there are more nodes than the section announced");
     *left -= count;
-    size_t *tag = KR_NEW_RAW(size_t, count);
-    double *point = KR_NEW_RAW(double, row * count);
-    kr_scan_sizes(scan, count, tag, "the number of a node");
-    kr_scan_doubles(scan, row * count, point, "a coordinate of a node");
-    for (size_t k = 0; k < count; k++)
-        kr_gather_node(&msh->gather, tag[k], point + row * k);
-    kr_free(tag);
-    kr_free(point);
+    size_t first = kr_gather_nodes(&msh->gather, count);
+    double *point = msh->gather.point + 3 * first;
+    kr_scan_sizes(scan, count, msh->gather.node_tag + first, "the number of a node");
+    if (row == 3) {
+        kr_scan_doubles(scan, 3 * count, point, "a coordinate of a node");
+        return;
+    }
+    for (size_t k = 0; k < count; k++) {
+        double found[6];
+        kr_scan_doubles(scan, row, found, "a coordinate of a node");
+        memcpy(point + 3 * k, found, 3 * sizeof *point);
+    }
 }
 
 void kr_msh4_nodes(struct kr_msh *msh) {
@@ -93,13 +101,15 @@ static void read_block(struct kr_msh *msh, size_t *left) {
         kr_scan_bad(scan, "elements of type %d cannot lie on an entity of dimension %d", type, dim);
     const struct kr_msh_entity *entity = find_entity(msh, dim, tag);
     kr_gather_expect_elements(&msh->gather, type, count);
-    for (size_t k = 0; k < count; k++) {
-        size_t number = kr_scan_size(scan, "the number of an element"), node[KR_MOST_NODES];
-        kr_scan_sizes(scan, kind->nodes, node, "a node of an element");
-        size_t place = kr_gather_element(&msh->gather, type, number, node);
-        for (size_t g = 0; g < entity->n_groups; g++)
-            kr_gather_member(&msh->gather, entity->group[g], place);
+    size_t row[MOST_ROWS * (1 + KR_MOST_NODES)], rows = sizeof row / sizeof *row / (1 + kind->nodes), first = 0;
+    for (size_t k = 0; k < count; k += rows) {
+        size_t n = count - k < rows ? count - k : rows;
+        kr_scan_sizes(scan, n * (1 + kind->nodes), row, "the number of an element or of a node of it");
+        size_t place = kr_gather_elements(&msh->gather, type, n, row);
+        first = k ? first : place;
     }
+    for (size_t g = 0; g < entity->n_groups; g++)
+        kr_gather_members(&msh->gather, entity->group[g], first, count);
 }
 
 void kr_msh4_elements(struct kr_msh *msh) {

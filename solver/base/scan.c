@@ -137,18 +137,62 @@ size_t kr_scan_size(struct kr_scan *scan, const char *what) {
     return (size_t)value;
 }
 
+/** A plain decimal number whose digits are an integer below 2^53 and whose power of ten is below 10^23: both are exact
+ *  in double precision, so one multiplication or division rounds as strtod does (Clinger, "How to read floating
+ *  point numbers accurately", 1990). 0 for any other text. */
+static int short_double(struct kr_scan *scan, double *value) {
+    static const double power[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                   1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+    const char *at = scan->data + scan->at + (scan->data[scan->at] == '-'), *begin = at, *point = NULL;
+    unsigned long long sum = 0;
+    int digits = 0, exponent = 0;
+    for (unsigned digit; (digit = (unsigned)*at - '0') < 10 || (*at == '.' && !point); at++) {
+        if (digit < 10) {
+            sum = 10 * sum + digit;
+            digits += sum > 0;
+        } else {
+            point = at;
+        }
+    }
+    if (at - begin - (point != NULL) < 1 || digits > 18 || sum >> 53)
+        return 0;
+    const long decimals = point ? at - point - 1 : 0;
+    if (*at == 'e') {
+        const int sign = at[1] == '-' ? -1 : 1;
+        at += 1 + (at[1] == '-' || at[1] == '+');
+        if ((unsigned)at[0] - '0' > 9 || (unsigned)at[1] - '0' > 9)
+            return 0;
+        exponent = sign * (10 * (at[0] - '0') + (at[1] - '0'));
+        at += 2;
+    }
+    const long ten = exponent - decimals;
+    if ((*at != ' ' && *at != '\n') || ten < -22 || ten > 22)
+        return 0;
+    *value = ten < 0 ? (double)sum / power[-ten] : (double)sum * power[ten];
+    *value = scan->data[scan->at] == '-' ? -*value : *value;
+    scan->at = (size_t)(at - scan->data);
+    return 1;
+}
+
+static double text_double(struct kr_scan *scan, const char *what) {
+    char *end;
+    double value;
+    skip_blank(scan);
+    if (short_double(scan, &value))
+        return value;
+    value = strtod(scan->data + scan->at, &end);
+    if (!ended_well(scan, end))
+        no_number(scan, what);
+    scan->at = (size_t)(end - scan->data);
+    return value;
+}
+
 double kr_scan_double(struct kr_scan *scan, const char *what) {
     double value;
-    if (scan->is_binary) {
+    if (scan->is_binary)
         take(scan, &value, sizeof value, what);
-    } else {
-        char *end;
-        skip_blank(scan);
-        value = strtod(scan->data + scan->at, &end);
-        if (!ended_well(scan, end))
-            no_number(scan, what);
-        scan->at = (size_t)(end - scan->data);
-    }
+    else
+        value = text_double(scan, what);
     if (!isfinite(value))
         kr_scan_bad(scan, "%s is not finite", what);
     return value;
