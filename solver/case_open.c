@@ -148,6 +148,17 @@ static void check_memory(const struct kr_case *c) {
     kr_machine_need(cells * a_cell, what);
 }
 
+/* What would show only when the mesh has been made. Of a mesh from elsewhere nothing is known yet. */
+static void look_ahead(struct kr_deck *deck, const struct kr_case *c) {
+    if (c->mesh_file && *c->mesh_file)
+        return;
+    if (kr_case_dim(c) == 3 && !(c->depth > 0))
+        kr_deck_fault(deck, &c->depth,
+                      "missing; material.model is solid: expected depth: 10 mm, or mesh.file");
+    kr_case_check_fit(deck, c);
+    kr_case_check_names(deck, c);
+}
+
 struct kr_deck *kr_case_open(const struct kr_case_arguments *arguments, struct kr_case *out) {
     memset(out, 0, sizeof *out);
     struct kr_deck *deck =
@@ -156,6 +167,8 @@ struct kr_deck *kr_case_open(const struct kr_case_arguments *arguments, struct k
     kr_case_preset(deck, out);
     kr_case_complete_geometry(deck, out);
     kr_case_check(deck, out);
+    if (arguments->meshes)
+        look_ahead(deck, out);
     if (arguments->check)
         kr_case_check_files(deck, out);
     kr_deck_finish(deck);

@@ -74,6 +74,22 @@ check nodes_of_another_model stops 2 "made for 'plane-stress'" solve --set mater
 check nodes_of_another_weight stops 2 "made for 'exact-centroid'" solve --set nodes.partial_volume=none
 check nodes_of_another_deformation stops 2 "made for 'mean-over-axes'" \
     solve --set nodes.surface_deformation=isotropic
+# Where the mesh follows from the deck, a name that it cannot have is told before it is made.
+early() { # words, option of the deck, program, option...
+    words=$1
+    set_to=$2
+    program=$3
+    shift 3
+    stops 2 "$words" "$build/$program" "$@" --output "$work/early" --set "$set_to" "$work/case.yaml" &&
+        [ ! -e "$work/early/plate.msh" ]
+}
+near="command line: loads.0.set: no set is called 'tpo'; did you mean 'top'? There are top, left, right, bottom"
+misfit="mesh.spacing: found 0.37 mm, .* the nearest that fit are 0.3636"
+check unknown_set_in_a_check early "$near" loads.0.set=tpo kirsch --check
+check unknown_set_before_all_steps early "$near" loads.0.set=tpo kirsch
+check unknown_set_before_the_mesh early "$near" loads.0.set=tpo kirsch-mesh
+check squares_that_do_not_fit_in_a_check early "$misfit" mesh.spacing='0.37 mm' kirsch --check
+check squares_that_do_not_fit_before_the_mesh early "$misfit" mesh.spacing='0.37 mm' kirsch-mesh
 check unknown_set stops 2 "no set is called 'upper'; there are" solve --set loads.0.set=upper
 check unknown_no_fail_set stops 2 "no set is called 'rim'" solve --set no_fail.0=rim
 check traction_on_an_area stops 2 "belongs to no boundary" solve --set loads.0.set=plate
