@@ -326,6 +326,10 @@ char *kr_case_misfit(double width, double height, double spacing);
  *  names, too, says that there are no faults and exits 0. The folder is made, unless the case is only to be explained. */
 struct kr_deck *kr_case_open(const struct kr_case_arguments *arguments, struct kr_case *out);
 
+/** Before exec of a program of Kirsch: the deck's warnings have been told, and kr_case_open there tells them
+ *  not again. */
+void kr_case_note_warned(void);
+
 /** The k-th of some words, cut to 31 letters: kr_case_word(KR_MODEL_WORDS, c->model, word). */
 void kr_case_word(const char *words, int k, char word[32]);
 

@@ -104,6 +104,7 @@ static void run_step(const struct kr_job *job, const struct kr_step *step) {
         prctl(PR_SET_PDEATHSIG, SIGTERM); /* killed with this program, a solve leaves a checkpoint */
         if (getppid() != parent)
             _exit(127);
+        kr_case_note_warned();
         execv(program, (char **)command);
         _exit(127);
     }
@@ -237,6 +238,7 @@ static void explain(const struct kr_job *job) {
         char *program = kr_child_beside("kirsch-solve");
         const char **command = command_of(job, program);
         append(command, "--explain");
+        kr_case_note_warned();
         execv(program, (char **)command);
         kr_stop(KR_EXIT_LIBRARY, "cannot start %s: %s", program, strerror(errno));
     }

@@ -100,4 +100,19 @@ check load_infinite_in_one_place stops 4 "the load on set 'top' is" \
     solve --set loads.0.traction='[free, 1e6/(x-x) Pa]'
 check folder_that_is_a_file stops 3 "no folder" \
     "$build/kirsch-solve" --output "$work/case.yaml" "$work/case.yaml"
+# kirsch tells a warning of the deck, and no step tells it again; a step alone does.
+warns() { # times, program, option...
+    times=$1
+    program=$2
+    shift 2
+    "$build/$program" --output "$work/warned" --set nodes.horizon='1.2 mm' --set solver.end_time='5 us' \
+        "$@" "$work/case.yaml" >"$work/told" 2>&1 || return
+    grep 'nodes.horizon: 2.4 spacings' "$work/told"
+    [ "$(grep -c 'nodes.horizon: 2.4 spacings' "$work/told")" -eq "$times" ]
+}
+warned_once() {
+    warns 1 kirsch && grep -q '^kirsch-track$' "$work/told" && warns 1 kirsch && warns 1 kirsch --explain &&
+        warns 1 kirsch-track && KIRSCH_WARNED=1 warns 1 kirsch-track
+}
+check a_warning_of_the_deck_once_a_run warned_once
 echo "1..$count"

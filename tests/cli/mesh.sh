@@ -49,7 +49,7 @@ missing_pores_stop() {
     stops 2 "pores.txt" mesh four
 }
 a_spacing_that_does_not_fit_stops() {
-    pores one && stops 2 "mm" mesh one --set mesh.spacing='0.0903 mm'
+    pores one && stops 2 "mesh.spacing: found 0.0903 mm" mesh one --set mesh.spacing='0.0903 mm'
 }
 explain_writes_nothing() {
     pores one && rm -f "$work/one/plate.msh" && mesh one --explain && [ ! -e "$work/one/plate.msh" ]
