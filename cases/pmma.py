@@ -111,7 +111,7 @@ def run(case, notch, grid=None, deck="case.yaml", owner=""):
         settings["mesh.grid"] = grid
     if grid == "voronoi":
         settings["nodes.partial_volume"] = "exact-centroid"
-    case.kirsch(label, settings, until="plot", deck=deck)
+    case.kirsch(label, settings, until="track", deck=deck)
     return label
 
 
