@@ -257,14 +257,12 @@ CDB
 check cdb_plane gives plane.cdb 6 RIGHT:1
 
 # What meshio writes, and an Exodus file with side sets and named blocks by netCDF4.
-$python - "$work" <<'PY' >"$work/log" 2>&1
+PYTHONPATH=tests/cli $python -B - "$work" <<'PY' >"$work/log" 2>&1
 import sys
 import meshio, netCDF4, numpy as np
+from by_meshio import bodies
 work = sys.argv[1]
-for name in ("plate", "block"):
-    m = meshio.read(f"{work}/{name}.msh")
-    top = "quad triangle" if name == "plate" else "hexahedron wedge"
-    cells = [(c.type, c.data) for c in m.cells if c.type in top.split()]
+for name, m, cells in bodies(work):
     data = {"Material": [np.full(len(d), 3 + k) for k, (_, d) in enumerate(cells)]}
     for end in ("vtu", "vtk", "xdmf", "bdf", "avs"):
         meshio.write(f"{work}/{name}_m.{end}", meshio.Mesh(m.points, cells, cell_data=data))
