@@ -15,7 +15,10 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
+#include <strings.h>
+#include <unistd.h>
 
 enum { SECONDS = 300, MOST_POINTS = 4097 };
 
@@ -248,18 +251,28 @@ size_t kr_cad_parse(FILE *file, const char *path, const struct kr_cad_place *pla
     return n;
 }
 
+const char *kr_cad_format(const char *path) {
+    static const char *const known[][2] = {{"step", "step"}, {"stp", "step"}, {"iges", "iges"},
+                                           {"igs", "iges"},  {"brep", "brep"}};
+    const char *dot = strrchr(path, '.');
+    for (size_t k = 0; dot && k < sizeof known / sizeof *known; k++)
+        if (!strcasecmp(dot + 1, known[k][0]))
+            return known[k][1];
+    return NULL;
+}
+
 size_t kr_cad_read(const char *path, const char *helper, const struct kr_cad_place *place,
                    struct kr_shape **face) {
     char *program = helper ? kr_text_copy(helper) : kr_child_beside("kirsch-gmsh");
-    char *word[] = {program, "--curves", kr_text_copy(path), NULL};
+    char *argument[] = {"kirsch", "--curves", (char *)(uintptr_t)kr_cad_format(path), NULL};
     struct kr_child child;
     int status;
-    FILE *file = fopen(path, "r");
-    if (!file)
+    if (!argument[2])
+        kr_stop(KR_EXIT_INPUT, "%s: expected a file named .step, .stp, .iges, .igs or .brep", path);
+    if (access(path, R_OK))
         kr_stop(KR_EXIT_INPUT, "%s cannot be read; geometry.outline names it", path);
-    fclose(file);
     kr_child_prepare(&child);
-    kr_child_start_words(&child, word, SECONDS);
+    kr_child_start_on(&child, program, argument, path, NULL, SECONDS);
     kr_child_wait(&status);
     char *error = kr_child_line(&child, "Error"), *trouble = kr_child_trouble(status, SECONDS);
     if (error)
@@ -270,7 +283,6 @@ size_t kr_cad_read(const char *path, const char *helper, const struct kr_cad_pla
     rewind(child.out);
     size_t n = kr_cad_parse(child.out, path, place, face);
     kr_child_close(&child);
-    kr_free(word[2]);
     kr_free(program);
     return n;
 }

@@ -37,6 +37,9 @@ struct kr_cad_place {
 size_t kr_cad_read(const char *path, const char *helper, const struct kr_cad_place *place,
                    struct kr_shape **face);
 
+/** "step", "iges" or "brep" by the ending of a name; NULL for others. */
+const char *kr_cad_format(const char *path);
+
 /** The second half of it, on what kirsch-gmsh said; `path` is for messages. */
 size_t kr_cad_parse(FILE *file, const char *path, const struct kr_cad_place *place,
                     struct kr_shape **face);

@@ -6,6 +6,7 @@
 #include "convert.h"
 
 #include "base/memory.h"
+#include "boundary.h"
 #include "vicinity.h"
 
 #include <math.h>
@@ -68,12 +69,23 @@ static void mark_by_place(struct making *m) {
     }
 }
 
+static void unknown_boundary(struct making *m) {
+    const struct kr_mesh *mesh = m->mesh;
+    const char **known = KR_NEW(const char *, mesh ? mesh->n_groups : 0);
+    size_t n = 0;
+    for (size_t g = 0; mesh && g < mesh->n_groups; g++)
+        if (mesh->group[g].dim == mesh->dim - 1)
+            known[n++] = mesh->group[g].name;
+    kr_deck_fault_name(m->deck, &m->set->of, "boundary of the mesh", n, known);
+    kr_free(known);
+}
+
 static void mark_near_boundary(struct making *m) {
     const struct kr_case_set *s = m->set;
     const struct kr_mesh_group *group =
         m->mesh ? kr_mesh_group(m->mesh, s->of, m->mesh->dim - 1) : NULL;
     if (!group) {
-        kr_deck_fault(m->deck, &s->of, "the mesh has no boundary '%s'", s->of);
+        unknown_boundary(m);
         return;
     }
     m->measure = kr_vicinity_mark(m->mesh, group, m->nodes, s->within, m->in);
@@ -88,8 +100,7 @@ static int count_in(struct making *m, const struct kr_deck_list *names, size_t f
     for (size_t k = from; k < to; k++) {
         const struct kr_set *of = kr_nodes_set(m->nodes, name[k]);
         if (!of) {
-            kr_deck_fault(m->deck, names, "there is no set '%s' above this one or in the mesh",
-                          name[k]);
+            kr_boundary_unknown_set(m->deck, &name[k], "set above this one", m->nodes);
             return 0;
         }
         for (size_t i = 0; i < of->count; i++)

@@ -7,9 +7,11 @@
 #include "base/child.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "cad.h"
 
 #include <ctype.h>
 #include <errno.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -59,20 +61,17 @@ static char *listen(struct kr_child *child, enum kr_exit *code) {
     return error;
 }
 
-/** Run a program to its end; what goes wrong stops and names the file that it was about. */
-static void run(char *const *word, const char *about) {
-    struct kr_child child;
+/** Wait for a program's end; what went wrong stops and names the file that it was about. */
+static void finish(struct kr_child *child, const char *program, const char *about) {
     enum kr_exit code;
     int status;
-    kr_child_prepare(&child);
-    kr_child_start_words(&child, word, SECONDS);
     kr_child_wait(&status);
-    char *error = listen(&child, &code), *trouble = kr_child_trouble(status, SECONDS);
-    kr_child_close(&child);
+    char *error = listen(child, &code), *trouble = kr_child_trouble(status, SECONDS);
+    kr_child_close(child);
     if (error)
         kr_stop(code, "%s: %s", about, error);
     if (trouble)
-        kr_stop(KR_EXIT_LIBRARY, "%s: %s was to read it, and %s", about, word[0], trouble);
+        kr_stop(KR_EXIT_LIBRARY, "%s: %s was to read it, and %s", about, program, trouble);
 }
 
 void kr_python(const char *script, const char *from, const char *to, const char *about) {
@@ -82,17 +81,29 @@ void kr_python(const char *script, const char *from, const char *to, const char 
                 "%s: this format needs " PYTHON "; on Debian: apt-get install python3 python3-meshio "
                 "python3-netcdf4 python3-h5py",
                 about);
-    run((char *[]){PYTHON, "-B", path, (char *)(uintptr_t)from, (char *)(uintptr_t)to, NULL}, about);
+    char *word[] = {PYTHON, "-B", path, (char *)(uintptr_t)from, (char *)(uintptr_t)to, NULL};
+    struct kr_child child;
+    kr_child_prepare(&child);
+    kr_child_start_words(&child, word, SECONDS);
+    finish(&child, PYTHON, about);
     kr_free(path);
 }
 
 /** gmsh meshes a body of CAD with cells of the length `spacing`. */
-static void mesh_geometry(const char *from, const char *to, double spacing) {
+static void mesh_geometry(const char *from, const char *folder, const char *to, double spacing) {
     if (!(spacing > 0))
         kr_stop(KR_EXIT_INPUT, "%s: a body without a mesh needs the length of a cell; give a deck "
                                "with mesh.spacing", from);
     char *program = kr_child_beside("kirsch-gmsh"), *size = kr_text("%.17g", spacing);
-    run((char *[]){program, (char *)(uintptr_t)from, (char *)(uintptr_t)to, size, NULL}, from);
+    char *argument[] = {"kirsch", "--body", (char *)(uintptr_t)kr_cad_format(from), size, NULL};
+    char *made = kr_text("%s%s", folder, strrchr(KR_GMSH_BODY, '/'));
+    struct kr_child child;
+    kr_child_prepare(&child);
+    kr_child_start_on(&child, program, argument, from, folder, SECONDS);
+    finish(&child, program, from);
+    if (rename(made, to))
+        kr_stop(KR_EXIT_STORAGE, "%s cannot be written: %s", to, strerror(errno));
+    kr_free(made);
     kr_free(program);
     kr_free(size);
 }
@@ -134,8 +145,8 @@ struct kr_mesh *kr_mesh_read(const char *path, const char *folder, double spacin
     if (is_msh || begins_with(path, "$MeshFormat"))
         return kr_mesh_read_msh(path);
     char *beside = converted_name(path, folder, "part.msh");
-    if (has_ending(path, "step stp iges igs brep"))
-        mesh_geometry(path, beside, spacing);
+    if (kr_cad_format(path))
+        mesh_geometry(path, folder, beside, spacing);
     else
         kr_python("to_msh.py", path, beside, path);
     int is_table = begins_with(beside, "x,y,z,volume");

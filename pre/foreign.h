@@ -9,7 +9,11 @@
 #ifndef KR_FOREIGN_H
 #define KR_FOREIGN_H
 
+#include "base/child.h"
 #include "mesh.h"
+
+/* Where the child leaves the mesh of a body of CAD. */
+#define KR_GMSH_BODY KR_CHILD_FOLDER "/body.part.msh"
 
 /** Read a mesh.
  *

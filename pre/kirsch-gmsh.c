@@ -8,13 +8,14 @@
  * gmsh may put no point of its own on the boundary. It exits 0 when it has written a mesh; whether
  * the mesh is right, kirsch-mesh finds out for itself.
  *
- * With three arguments, FROM TO.msh SIZE, it meshes a body of CAD (STEP, IGES, BREP; lengths are
- * turned into metres) with cells of that size and writes MSH 4.1. The body becomes the group `body`,
- * each curve (2D) or surface (3D) of its boundary a group `side_N`, N as gmsh shows it.
+ * With `--body FORMAT SIZE` standard input is a body of CAD (step, iges, brep; lengths are turned into metres), which
+ * it meshes with cells of that size and writes as KR_GMSH_BODY, MSH 4.1. The body becomes the group `body`, each
+ * curve (2D) or surface (3D) of its boundary a group `side_N`, N as gmsh shows it.
  *
- * With `--curves FROM` it tells the curves around each plane face of such a file (cad.h).
+ * With `--curves FORMAT` it tells the curves around each plane face of such a file (cad.h).
  */
 #include "called.h"
+#include "foreign.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -170,15 +171,25 @@ static void group_entities(int dim, const char *all) {
     gmshFree(pair);
 }
 
-static void mesh_body(const char *from, const char *to, double size) {
+/** The body on standard input: by its descriptor, for a file's own name would move what gmsh allocates. */
+static void read_body(const char *format) {
+    int *shape;
+    size_t n;
+    gmshModelOccImportShapes("/proc/self/fd/0", &shape, &n, 0, format, &trouble);
+    called("reading the file");
+    gmshModelOccSynchronize(&trouble);
+    called("reading the file");
+    gmshFree(shape);
+}
+
+static void mesh_body(const char *format, double size) {
     set("General.Terminal", 1);
     set("General.Verbosity", 2);
     set("General.NumThreads", 1);
     set("General.AbortOnError", 0);
     gmshOptionSetString("Geometry.OCCTargetUnit", "M", &trouble);
     called("the unit");
-    gmshOpen(from, &trouble);
-    called("reading the file");
+    read_body(format);
     int dim = gmshModelGetDimension(&trouble);
     called("the dimension");
     if (dim < 2)
@@ -192,7 +203,7 @@ static void mesh_body(const char *from, const char *to, double size) {
     called("meshing");
     set("Mesh.MshFileVersion", 4.1);
     set("Mesh.Binary", 1);
-    gmshWrite(to, &trouble);
+    gmshWrite(KR_GMSH_BODY, &trouble);
     called("writing the mesh");
 }
 
@@ -245,7 +256,7 @@ static void tell_face(FILE *file, int face, double *low_z, double *high_z) {
 }
 
 /** The curves around the faces of a file of CAD; see cad.h. */
-static void tell_curves(const char *from, FILE *file) {
+static void tell_curves(const char *format, FILE *file) {
     int *face, *solid;
     size_t n, n_solids;
     double low_z = INFINITY, high_z = -INFINITY, size = 0;
@@ -254,8 +265,7 @@ static void tell_curves(const char *from, FILE *file) {
     set("General.AbortOnError", 0);
     gmshOptionSetString("Geometry.OCCTargetUnit", "MM", &trouble);
     called("the unit");
-    gmshOpen(from, &trouble);
-    called("reading the file");
+    read_body(format);
     gmshModelGetEntities(&solid, &n_solids, 3, &trouble);
     gmshModelGetEntities(&face, &n, 2, &trouble);
     called("the faces");
@@ -295,10 +305,10 @@ int main(int argc, char **argv) {
         fflush(NULL);
         _exit(0);
     }
-    if (argc == 4) {
+    if (argc == 4 && !strcmp(argv[1], "--body")) {
         gmshInitialize(0, NULL, 0, &trouble);
         called("starting gmsh");
-        mesh_body(argv[1], argv[2], strtod(argv[3], NULL));
+        mesh_body(argv[2], strtod(argv[3], NULL));
         gmshFinalize(&trouble);
         return 0;
     }

@@ -91,6 +91,7 @@ int main(int argc, char **argv) {
     kr_case_arguments(argc, argv, usage, &arguments);
     if (arguments.n_left)
         kr_stop(KR_EXIT_INPUT, "unknown argument %s; see --help", arguments.left[0]);
+    arguments.meshes = 1;
     struct kr_deck *deck = kr_case_open(&arguments, &c);
     struct kr_mesh *mesh = mesh_case(&arguments, &c, deck);
     char *path = kr_case_file(&c, "plate.msh");

@@ -18,7 +18,7 @@ struct kr_lattice {
  *  in  width, height, spacing   [m]
  *
  *  Stops (exit 2) unless both sides are multiples of the spacing to 1e-9, and names the nearest
- *  spacings that fit.
+ *  that do. Programs with a deck have said so before, by its line (kr_case_check_fit).
  */
 struct kr_lattice kr_lattice_fit(double width, double height, double spacing);
 

@@ -12,9 +12,13 @@
 
 struct kr_boundary; /* Opaque: boundary_private.h. */
 
-/** Check that the sets that loads and no_fail name are there and not empty, and that tractions act on
+/** Check that the sets that loads, probes and no_fail name are there and not empty, and that tractions act on
  *  sets that belong to a boundary; what is wrong is a fault of the deck. */
 void kr_boundary_check(struct kr_deck *deck, const struct kr_case *c, const struct kr_nodes *nodes);
+
+/** Fault the name at `place`, and say which sets there are; `kind` is "set" or says which. */
+void kr_boundary_unknown_set(struct kr_deck *deck, const char *const *place, const char *kind,
+                             const struct kr_nodes *nodes);
 
 /** The set named at `place`; NULL and a fault of the deck if there is none or nothing in it. */
 const struct kr_set *kr_boundary_find_set(struct kr_deck *deck, const char *const *place,

@@ -36,20 +36,24 @@ static double volume_of(const struct kr_nodes *nodes, const struct kr_set *set) 
     return volume;
 }
 
+void kr_boundary_unknown_set(struct kr_deck *deck, const char *const *place, const char *kind,
+                             const struct kr_nodes *nodes) {
+    const char **known = KR_NEW(const char *, nodes->n_sets);
+    for (size_t s = 0; s < nodes->n_sets; s++)
+        known[s] = nodes->set[s].name;
+    kr_deck_fault_name(deck, place, kind, nodes->n_sets, known);
+    kr_free(known);
+}
+
 const struct kr_set *kr_boundary_find_set(struct kr_deck *deck, const char *const *place,
                                           const struct kr_nodes *nodes) {
-    char known[512] = "";
     const struct kr_set *set = kr_nodes_set(nodes, *place);
     if (set && set->count)
         return set;
-    for (size_t s = 0; s < nodes->n_sets; s++) {
-        size_t used = strlen(known);
-        snprintf(known + used, sizeof known - used, "%s%s", s ? ", " : "", nodes->set[s].name);
-    }
     if (set)
         kr_deck_fault(deck, place, "set '%s' has no node in it", *place);
     else
-        kr_deck_fault(deck, place, "no set is called '%s'; there are %s", *place, known);
+        kr_boundary_unknown_set(deck, place, "set", nodes);
     return NULL;
 }
 
@@ -69,12 +73,16 @@ static void check_loads(struct kr_deck *deck, const struct kr_deck_list *list,
 void kr_boundary_check(struct kr_deck *deck, const struct kr_case *c,
                        const struct kr_nodes *nodes) {
     const struct kr_case_stage *stage = c->stages.item;
+    const struct kr_case_probe *probe = c->probes.item;
     const char *const *name = c->no_fail.item;
     check_loads(deck, &c->loads, nodes);
     for (size_t k = 0; k < c->stages.count; k++)
         check_loads(deck, &stage[k].loads, nodes);
     for (size_t k = 0; k < c->no_fail.count; k++)
         kr_boundary_find_set(deck, &name[k], nodes);
+    for (size_t k = 0; k < c->probes.count; k++)
+        if (kr_deck_given(deck, &probe[k].set))
+            kr_boundary_find_set(deck, &probe[k].set, nodes);
 }
 
 static struct kr_table *table_of(struct kr_deck *deck, const struct kr_case_load *from) {

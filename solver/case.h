@@ -287,6 +287,8 @@ struct kr_case_arguments {
     size_t n_set;
     const char **set;   /* `set` and `left` are owned by the caller (kr_free) */
     int check, explain; /* --check, --explain */
+    int meshes;         /* set by programs that make the mesh, or have it made: what its boundaries
+                           and squares tell of the deck is then checked, too */
     size_t n_left;      /* what the program itself must understand: it stops on unknown ones */
     const char **left;
 };
@@ -316,9 +318,17 @@ void kr_case_visit_files(struct kr_deck *deck, const struct kr_case *c, enum kr_
 /** Fault those that cannot be read. Programs that need none of them are not asked for. */
 void kr_case_check_files(struct kr_deck *deck, const struct kr_case *c);
 
+/** What does fit where squares of the spacing do not fill the rectangle, each to a billionth: the end
+ *  of a sentence, owned by the caller; NULL if they do. All in m. */
+char *kr_case_misfit(double width, double height, double spacing);
+
 /** Open the deck, read and check it whole; faults stop (exit 2). With `check` it looks for the files that the deck
  *  names, too, says that there are no faults and exits 0. The folder is made, unless the case is only to be explained. */
 struct kr_deck *kr_case_open(const struct kr_case_arguments *arguments, struct kr_case *out);
+
+/** Before exec of a program of Kirsch: the deck's warnings have been told, and kr_case_open there tells them
+ *  not again. */
+void kr_case_note_warned(void);
 
 /** The k-th of some words, cut to 31 letters: kr_case_word(KR_MODEL_WORDS, c->model, word). */
 void kr_case_word(const char *words, int k, char word[32]);

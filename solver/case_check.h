@@ -43,6 +43,12 @@ void kr_case_check_cracks(struct kr_deck *deck, const struct kr_case *c);
 /** Stages and the end of the run. */
 void kr_case_check_stages(struct kr_deck *deck, const struct kr_case *c);
 
+/** The spacing against the sides of the plate. Not for meshes from elsewhere. */
+void kr_case_check_fit(struct kr_deck *deck, const struct kr_case *c);
+
+/** Boundaries and sets that sets, loads, probes and no_fail name. Not for meshes from elsewhere. */
+void kr_case_check_names(struct kr_deck *deck, const struct kr_case *c);
+
 /** One set of nodes. */
 void kr_case_check_set(struct kr_deck *deck, const struct kr_case *c,
                        const struct kr_case_set *set);

@@ -12,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* ---- arguments ---- */
 
@@ -148,6 +149,31 @@ static void check_memory(const struct kr_case *c) {
     kr_machine_need(cells * a_cell, what);
 }
 
+/* Holds the parent of the process that it is for: so it silences no other, wherever it may come to be known. */
+static const char warned[] = "KIRSCH_WARNED";
+
+void kr_case_note_warned(void) {
+    char parent[32];
+    snprintf(parent, sizeof parent, "%ld", (long)getppid());
+    setenv(warned, parent, 1);
+}
+
+static int was_warned(void) {
+    const char *parent = getenv(warned);
+    return parent && strtol(parent, NULL, 10) == (long)getppid();
+}
+
+/* What would show only when the mesh has been made. Of a mesh from elsewhere nothing is known yet. */
+static void look_ahead(struct kr_deck *deck, const struct kr_case *c) {
+    if (c->mesh_file && *c->mesh_file)
+        return;
+    if (kr_case_dim(c) == 3 && !(c->depth > 0))
+        kr_deck_fault(deck, &c->depth,
+                      "missing; material.model is solid: expected depth: 10 mm, or mesh.file");
+    kr_case_check_fit(deck, c);
+    kr_case_check_names(deck, c);
+}
+
 struct kr_deck *kr_case_open(const struct kr_case_arguments *arguments, struct kr_case *out) {
     memset(out, 0, sizeof *out);
     struct kr_deck *deck =
@@ -156,10 +182,13 @@ struct kr_deck *kr_case_open(const struct kr_case_arguments *arguments, struct k
     kr_case_preset(deck, out);
     kr_case_complete_geometry(deck, out);
     kr_case_check(deck, out);
+    if (arguments->meshes)
+        look_ahead(deck, out);
     if (arguments->check)
         kr_case_check_files(deck, out);
     kr_deck_finish(deck);
-    kr_case_warn(deck, out);
+    if (!was_warned())
+        kr_case_warn(deck, out);
     if (arguments->check) {
         kr_say("%s: no faults", arguments->deck);
         exit(KR_EXIT_OK);

@@ -104,6 +104,7 @@ static void run_step(const struct kr_job *job, const struct kr_step *step) {
         prctl(PR_SET_PDEATHSIG, SIGTERM); /* killed with this program, a solve leaves a checkpoint */
         if (getppid() != parent)
             _exit(127);
+        kr_case_note_warned();
         execv(program, (char **)command);
         _exit(127);
     }
@@ -213,10 +214,8 @@ static void take_own_arguments(struct kr_job *job) {
             kr_stop(KR_EXIT_INPUT, "unknown argument '%s'; see kirsch --help", a->left[k]);
 }
 
-/* Faults that would show only in a later step, when the mesh has been made. */
+/* Files that a later step would miss. */
 static void look_ahead(const struct kr_job *job) {
-    if (!job->mesh && kr_case_dim(&job->c) == 3 && !(job->c.depth > 0))
-        kr_deck_fault(job->deck, &job->c.depth, "missing; material.model is solid: expected depth: 10 mm, or mesh.file");
     kr_case_check_files(job->deck, &job->c);
     kr_deck_finish(job->deck);
 }
@@ -239,6 +238,7 @@ static void explain(const struct kr_job *job) {
         char *program = kr_child_beside("kirsch-solve");
         const char **command = command_of(job, program);
         append(command, "--explain");
+        kr_case_note_warned();
         execv(program, (char **)command);
         kr_stop(KR_EXIT_LIBRARY, "cannot start %s: %s", program, strerror(errno));
     }
@@ -259,6 +259,7 @@ int main(int argc, char **argv) {
     }
     kr_case_arguments(argc, argv, usage, &job.arguments);
     take_own_arguments(&job);
+    job.arguments.meshes = 1;
     job.deck = kr_case_open(&job.arguments, &job.c);
     if (job.c.mesh_file && *job.c.mesh_file)
         job.mesh = kr_deck_beside(job.deck, job.c.mesh_file);

@@ -5,7 +5,7 @@
 #include "probe.h"
 
 #include "base/memory.h"
-#include "boundary.h"
+#include "nodes.h"
 #include "quantity.h"
 
 #include <math.h>
@@ -46,7 +46,7 @@ static void make_probe(struct kr_deck *deck, const struct kr_case_probe *from,
     double away = 0;
     *to = (struct probe){.name = from->name, .quantity = from->quantity, .count = 1};
     if (kr_deck_given(deck, &from->set)) {
-        const struct kr_set *set = kr_boundary_find_set(deck, &from->set, nodes);
+        const struct kr_set *set = kr_nodes_set(nodes, from->set);
         to->count = set ? set->count : 0;
         to->node = set ? set->node : NULL;
         return;

@@ -13,8 +13,8 @@
 
 struct kr_probes; /* Opaque. Implemented in probe.c. */
 
-/** The case's output.probes. An unknown or empty set, and a place outside of the body (no node within a
- *  spacing) are faults of the deck. Owns nothing of what it is made from. */
+/** The case's output.probes, their sets checked by kr_boundary_check. A place outside of the body (no node within a
+ *  spacing) is a fault of the deck. Owns nothing of what it is made from. */
 struct kr_probes *kr_probes_create(struct kr_deck *deck, const struct kr_case *c,
                                    const struct kr_nodes *nodes);
 void kr_probes_free(struct kr_probes *probes);

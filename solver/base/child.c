@@ -54,23 +54,25 @@ void kr_child_prepare(struct kr_child *child) {
 /** In the child: what is to run, and in which way. */
 struct program {
     char *const *word, *const *environment;
+    char *const *argument; /* of a copy: its name, its arguments */
     int in_memory; /* from a copy, at the root of the file system */
+    int folder;    /* and this open folder as KR_CHILD_FOLDER; 0: none */
 };
 
 /** Run a copy of the program in memory, which has the same path everywhere. */
 static void run_copy(const struct program *program) {
-    enum { COPY = 3 };
+    enum { COPY = 3, FOLDER = 4, APART = 16 };
     char part[1 << 16];
     ssize_t n;
+    int folder = program->folder ? fcntl(program->folder, F_DUPFD_CLOEXEC, APART) : 0;
     int from = open(program->word[0], O_RDONLY | O_CLOEXEC), to = memfd_create("kirsch", 0);
-    if (from < 0 || to < 0)
+    if (from < 0 || to < 0 || folder < 0)
         return;
     while ((n = read(from, part, sizeof part)) > 0)
         if (write(to, part, (size_t)n) != n)
             return;
-    char *word[] = {"kirsch", NULL};
-    if (n == 0 && chdir("/") == 0 && dup2(to, COPY) == COPY)
-        execve("/proc/self/fd/3", word, program->environment);
+    if (n == 0 && chdir("/") == 0 && dup2(to, COPY) == COPY && (!folder || dup2(folder, FOLDER) == FOLDER))
+        execve("/proc/self/fd/3", program->argument, program->environment);
 }
 
 /** In the child: only calls that are safe between fork and exec. */
@@ -117,25 +119,43 @@ static void launch(struct kr_child *child, struct program program, unsigned seco
         become(&program, file, seconds, parent);
 }
 
-static void launch_bare(struct kr_child *child, char *const *word, int in_memory, unsigned seconds) {
+/** With no environment but the place of libraries. */
+static void launch_bare(struct kr_child *child, struct program program, unsigned seconds) {
     const char *libraries = getenv("LD_LIBRARY_PATH");
     char *kept = libraries ? kr_text("LD_LIBRARY_PATH=%s", libraries) : NULL;
-    char *environment[] = {kept, NULL};
-    launch(child, (struct program){word, environment, in_memory}, seconds);
+    program.environment = (char *[]){kept, NULL};
+    launch(child, program, seconds);
     kr_free(kept);
 }
 
 void kr_child_start(struct kr_child *child, const char *program, unsigned seconds) {
-    launch_bare(child, (char *[]){(char *)(uintptr_t)program, NULL}, 1, seconds);
+    char *word[] = {(char *)(uintptr_t)program, NULL}, *argument[] = {"kirsch", NULL};
+    launch_bare(child, (struct program){.word = word, .argument = argument, .in_memory = 1}, seconds);
+}
+
+void kr_child_start_on(struct kr_child *child, const char *program, char *const *argument, const char *from,
+                       const char *folder, unsigned seconds) {
+    char *word[] = {(char *)(uintptr_t)program, NULL};
+    struct program copy = {.word = word, .argument = argument, .in_memory = 1};
+    FILE *file = fopen(from, "rb");
+    if (!file)
+        kr_stop(KR_EXIT_INPUT, "%s cannot be read: %s", from, strerror(errno));
+    fclose(child->in);
+    child->in = file;
+    if (folder && (copy.folder = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC)) < 0)
+        kr_stop(KR_EXIT_STORAGE, "%s cannot be opened: %s", folder, strerror(errno));
+    launch_bare(child, copy, seconds);
+    if (copy.folder)
+        close(copy.folder);
 }
 
 void kr_child_start_words(struct kr_child *child, char *const *word, unsigned seconds) {
-    launch_bare(child, word, 0, seconds);
+    launch_bare(child, (struct program){.word = word}, seconds);
 }
 
 void kr_child_start_in(struct kr_child *child, char *const *word, char *const *environment,
                        unsigned seconds) {
-    launch(child, (struct program){word, environment, 0}, seconds);
+    launch(child, (struct program){.word = word, .environment = environment}, seconds);
 }
 
 pid_t kr_child_wait(int *status) {

@@ -25,6 +25,13 @@ void kr_child_prepare(struct kr_child *child);
  * parent. Stops (exit 5) where no process can be made. */
 void kr_child_start(struct kr_child *child, const char *program, unsigned seconds);
 
+/** The same for a program that reads the file `from` on its standard input: `argument` ends with NULL, and `folder`,
+ * where it is not NULL, is what the program may write into as KR_CHILD_FOLDER. So no path of a user's reaches it.
+ * Stops (exit 2) where the file cannot be read, (exit 3) where there is no folder. */
+#define KR_CHILD_FOLDER "/proc/self/fd/4"
+void kr_child_start_on(struct kr_child *child, const char *program, char *const *argument, const char *from,
+                       const char *folder, unsigned seconds);
+
 /** The same with arguments, from where the program lies and in the folder of the caller: `word` is the program, its
  * arguments, NULL. */
 void kr_child_start_words(struct kr_child *child, char *const *word, unsigned seconds);

@@ -98,6 +98,16 @@ void kr_deck_read(struct kr_deck *deck, const struct kr_deck_key *keys, void *in
 void kr_deck_fault(struct kr_deck *deck, const void *field, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/** Fault a name that is none of those known: "no boundary is called 'tpo'; did you mean 'top'? There
+ *  are top, left, ...", those of near spelling first.
+ *
+ *  in  field   the place, within the struct read, of the name (KR_DECK_TEXT)
+ *  in  kind    "boundary"
+ *  in  known   (n)
+ */
+void kr_deck_fault_name(struct kr_deck *deck, const char *const *field, const char *kind, size_t n,
+                        const char *const *known);
+
 /** Whether the deck (or a variant, or the command line) gives this value itself. */
 int kr_deck_given(const struct kr_deck *deck, const void *field);
 

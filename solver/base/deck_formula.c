@@ -15,7 +15,7 @@
 
 /* Sentence about a text that is no expression with finite value; NULL if it is one. A value that
    varies cannot be judged before it is used, so it may be infinite here. */
-static char *fault_of(const char *text) {
+static char *fault_of(const char *text, double factor) {
     char *why = NULL;
     struct kr_expression *expression = kr_expression_create(text, &why);
     if (!expression) {
@@ -25,7 +25,7 @@ static char *fault_of(const char *text) {
     }
     int varies =
         kr_expression_varies_in_space(expression) || kr_expression_varies_in_time(expression);
-    if (!varies && !isfinite(kr_expression_value(expression, 0, 0, 0, 0)))
+    if (!varies && !isfinite(factor * kr_expression_value(expression, 0, 0, 0, 0)))
         why = kr_text_copy("its value is not finite");
     kr_expression_free(expression);
     return why;
@@ -45,7 +45,7 @@ static double split(char *text, const char *unit, char **why) {
         double factor = may_begin_unit(text, i) ? kr_unit_factor(text + i, unit) : 0;
         if (factor == 0)
             continue;
-        char *head = kr_text("%.*s", (int)i, text), *fault = fault_of(head);
+        char *head = kr_text("%.*s", (int)i, text), *fault = fault_of(head, factor);
         kr_free(head);
         if (!fault) {
             while (i && isspace((unsigned char)text[i - 1]))
@@ -65,7 +65,7 @@ static double split(char *text, const char *unit, char **why) {
    unit was found. */
 static char *explain(const char *text, const char *unit, const char *fault) {
     double number;
-    char *why = NULL, *bare = fault_of(text);
+    char *why = NULL, *bare = fault_of(text, 1);
     if (fault)
         why = kr_text("found '%.60s': %s", text, fault);
     else if (bare && kr_unit_number(text, &number) &&
@@ -90,8 +90,12 @@ void kr_deck_formula_read(const struct kr_deck_spot *spot, struct kr_deck_formul
     char *text = kr_deck_own(spot->deck, kr_text_copy(spot->node->text));
     if (!strcmp(text, "free")) {
         *place = (struct kr_deck_formula){text, 1, 1};
+    } else if (kr_unit_beyond(text)) {
+        fault = kr_unit_beyond_said(text, unit);
+        *place = (struct kr_deck_formula){text, 1, 0};
+        kr_deck_complain(spot->deck, spot->node->at, spot->path, "%s", fault);
     } else if (!strcmp(unit, "1")) {
-        fault = fault_of(text);
+        fault = fault_of(text, 1);
         *place = (struct kr_deck_formula){text, 1, 0};
         if (fault)
             kr_deck_complain(spot->deck, spot->node->at, spot->path, "found '%.60s': %s", text,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * "Did you mean": the key nearest to one that is unknown, by the number of letters to insert, to leave out, to
+ * "Did you mean": the key or name nearest to one that is unknown, by the number of letters to insert, to leave out, to
  * replace, or to exchange with their neighbours (Damerau, Commun. ACM 7, 1964).
  */
 #include "base/deck_private.h"
@@ -127,4 +127,48 @@ void kr_deck_unknown(struct kr_deck *deck, const struct kr_deck_key *keys, const
     }
     kr_deck_complain(deck, at, path, "unknown key; %s", cure);
     kr_free(cure);
+}
+
+/* ---- names that the user chose ---- */
+
+/* More are counted, not listed. */
+enum { LISTED = 16 };
+
+/* The known names in an order for reading: near ones by their rank, then the others as they come. */
+static const char **in_order(const char *name, size_t n, const char *const *known) {
+    const char **order = KR_NEW(const char *, n);
+    size_t near = 0, far = 0;
+    for (size_t k = 0; k < n; k++) {
+        size_t at = near + far;
+        if (is_near(name, known[k])) {
+            for (at = near++; at > 0 && rank(name, known[k]) < rank(name, order[at - 1]);)
+                at--;
+        } else {
+            far++;
+        }
+        memmove(order + at + 1, order + at, (near + far - 1 - at) * sizeof *order);
+        order[at] = known[k];
+    }
+    return order;
+}
+
+void kr_deck_fault_name(struct kr_deck *deck, const char *const *field, const char *kind, size_t n,
+                        const char *const *known) {
+    const char **order = in_order(*field, n, known);
+    char *all = kr_text_copy(n ? "" : "none"), *cure = kr_text("there are");
+    for (size_t k = 0; k < n && k < LISTED; k++) {
+        char *more = kr_text("%s%s%s", all, k ? ", " : "", order[k]);
+        kr_free(all);
+        all = more;
+    }
+    if (n && is_near(*field, order[0])) {
+        kr_free(cure);
+        cure = kr_text("did you mean '%s'? There are", order[0]);
+    }
+    char *rest = n > LISTED ? kr_text(" and %zu more", n - LISTED) : kr_text_copy("");
+    kr_deck_fault(deck, field, "no %s is called '%.60s'; %s %s%s", kind, *field, cure, all, rest);
+    kr_free(rest);
+    kr_free(cure);
+    kr_free(all);
+    kr_free(order);
 }

@@ -10,6 +10,7 @@
 #include "base/memory.h"
 
 #include <ctype.h>
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -102,6 +103,26 @@ const char *kr_unit_number(const char *text, double *value) {
     return end == text || !isfinite(*value) ? NULL : end;
 }
 
+int kr_unit_beyond(const char *text) {
+    int before = 0;
+    for (char *end; *text; before = (unsigned char)end[-1], text = end) {
+        end = (char *)text + 1;
+        if (!isdigit((unsigned char)*text) || isalnum(before) || before == '_')
+            continue;
+        errno = 0;
+        strtod(text, &end);
+        if (errno == ERANGE)
+            return 1;
+    }
+    return 0;
+}
+
+char *kr_unit_beyond_said(const char *text, const char *unit) {
+    const char *common = kr_unit_common(unit);
+    return kr_text("found '%.60s', beyond the sizes of numbers, 2.2e-308 to 1.8e308 in SI units; expected %s, "
+                   "such as '1%s%s'", text, kr_unit_noun(unit), *common ? " " : "", common);
+}
+
 /* 0.16 mm and 160 um are the same length, but 0.16 * 0.001 and 160 * 1e-6 differ in the last bit.
    Fifteen digits hold all that a converted decimal can say, and make both 0.00016. */
 static double settle(double value) {
@@ -134,6 +155,10 @@ static char *explain(const char *text, const char *number_end, const char *unit)
 static int read_trimmed(const char *text, const char *unit, double *value, char **why) {
     double number = 0;
     const char *end = kr_unit_number(text, &number);
+    if (kr_unit_beyond(text)) {
+        *why = kr_unit_beyond_said(text, unit);
+        return 0;
+    }
     int pure = !strcmp(unit, "1");
     const char *rest = end ? end + strspn(end, " \t\n") : "";
     if (end && pure && !*rest) {
@@ -141,8 +166,8 @@ static int read_trimmed(const char *text, const char *unit, double *value, char 
         return 1;
     }
     double factor = end && !pure && *rest ? kr_unit_factor(rest, unit) : 0;
-    if (factor == 0 || !isfinite(number * factor)) {
-        *why = explain(text, end, unit);
+    if (factor == 0 || (number != 0 && !isnormal(number * factor))) {
+        *why = factor == 0 ? explain(text, end, unit) : kr_unit_beyond_said(text, unit);
         return 0;
     }
     *value = factor == 1 ? number : settle(number * factor);

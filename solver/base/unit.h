@@ -27,6 +27,14 @@ const char *kr_unit_common(const char *unit);
  *  hexadecimal, infinite and not-a-number, which no quantity in a deck is. */
 const char *kr_unit_number(const char *text, double *value);
 
+/** Whether a decimal number in a text is neither 0 nor of a size for which a double keeps all digits, 2.2e-308
+ *  to 1.8e308. */
+int kr_unit_beyond(const char *text);
+
+/** Sentence about a text with such a number: what was found, what was expected; owned by the caller. `unit` as in
+ *  kr_unit_read. */
+char *kr_unit_beyond_said(const char *text, const char *unit);
+
 /** Free what udunits2 keeps. */
 void kr_unit_close(void);
 

@@ -74,6 +74,22 @@ check nodes_of_another_model stops 2 "made for 'plane-stress'" solve --set mater
 check nodes_of_another_weight stops 2 "made for 'exact-centroid'" solve --set nodes.partial_volume=none
 check nodes_of_another_deformation stops 2 "made for 'mean-over-axes'" \
     solve --set nodes.surface_deformation=isotropic
+# Where the mesh follows from the deck, a name that it cannot have is told before it is made.
+early() { # words, option of the deck, program, option...
+    words=$1
+    set_to=$2
+    program=$3
+    shift 3
+    stops 2 "$words" "$build/$program" "$@" --output "$work/early" --set "$set_to" "$work/case.yaml" &&
+        [ ! -e "$work/early/plate.msh" ]
+}
+near="command line: loads.0.set: no set is called 'tpo'; did you mean 'top'? There are top, left, right, bottom"
+misfit="mesh.spacing: found 0.37 mm, .* the nearest that fit are 0.3636"
+check unknown_set_in_a_check early "$near" loads.0.set=tpo kirsch --check
+check unknown_set_before_all_steps early "$near" loads.0.set=tpo kirsch
+check unknown_set_before_the_mesh early "$near" loads.0.set=tpo kirsch-mesh
+check squares_that_do_not_fit_in_a_check early "$misfit" mesh.spacing='0.37 mm' kirsch --check
+check squares_that_do_not_fit_before_the_mesh early "$misfit" mesh.spacing='0.37 mm' kirsch-mesh
 check unknown_set stops 2 "no set is called 'upper'; there are" solve --set loads.0.set=upper
 check unknown_no_fail_set stops 2 "no set is called 'rim'" solve --set no_fail.0=rim
 check traction_on_an_area stops 2 "belongs to no boundary" solve --set loads.0.set=plate
@@ -84,4 +100,19 @@ check load_infinite_in_one_place stops 4 "the load on set 'top' is" \
     solve --set loads.0.traction='[free, 1e6/(x-x) Pa]'
 check folder_that_is_a_file stops 3 "no folder" \
     "$build/kirsch-solve" --output "$work/case.yaml" "$work/case.yaml"
+# kirsch tells a warning of the deck, and no step tells it again; a step alone does.
+warns() { # times, program, option...
+    times=$1
+    program=$2
+    shift 2
+    "$build/$program" --output "$work/warned" --set nodes.horizon='1.2 mm' --set solver.end_time='5 us' \
+        "$@" "$work/case.yaml" >"$work/told" 2>&1 || return
+    grep 'nodes.horizon: 2.4 spacings' "$work/told"
+    [ "$(grep -c 'nodes.horizon: 2.4 spacings' "$work/told")" -eq "$times" ]
+}
+warned_once() {
+    warns 1 kirsch && grep -q '^kirsch-track$' "$work/told" && warns 1 kirsch && warns 1 kirsch --explain &&
+        warns 1 kirsch-track && KIRSCH_WARNED=1 warns 1 kirsch-track
+}
+check a_warning_of_the_deck_once_a_run warned_once
 echo "1..$count"

@@ -193,14 +193,12 @@ check cut cut_anywhere block_faces "))"
 check cut_binary cut_anywhere block_faces3 "End of Binary Section   3013"
 
 # As meshio writes it, by the corners of cells, ASCII and binary; zones make no sets, and that is said.
-$python - "$work" <<'PY' >"$work/log" 2>&1
+PYTHONPATH=tests/cli $python -B - "$work" <<'PY' >"$work/log" 2>&1
 import sys
 import meshio
+from by_meshio import bodies
 work = sys.argv[1]
-for name in ("plate", "block"):
-    m = meshio.read(f"{work}/{name}.msh")
-    top = "quad triangle" if name == "plate" else "hexahedron wedge"
-    cells = [(c.type, c.data) for c in m.cells if c.type in top.split()]
+for name, m, cells in bodies(work):
     for binary in (False, True):
         meshio.write(f"{work}/{name}_fluent{int(binary)}.msh", meshio.Mesh(m.points, cells),
                      file_format="ansys", binary=binary)

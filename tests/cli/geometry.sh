@@ -120,7 +120,7 @@ pores_of_the_papers_file_are_taken() {
 }
 
 # What the loop of the spline holds, by quadrature along gmsh's own curve.
-"$build/kirsch-gmsh" --curves "$work/plate.step" >"$work/curves" 2>"$work/gmsh.log"
+"$build/kirsch-gmsh" --curves step <"$work/plate.step" >"$work/curves" 2>"$work/gmsh.log"
 awk '/^curve other/ { free = 1; n = 0; next } /^[a-z]/ { free = 0 }
      free { x[n] = $1; y[n] = $2; u[n] = $3; v[n++] = $4 }
      END { h = 1/(n - 1); for (k = 0; k < n; k++) { w = k == 0 || k == n - 1 ? 1 : k % 2 ? 4 : 2
@@ -128,7 +128,16 @@ awk '/^curve other/ { free = 1; n = 0; next } /^[a-z]/ { free = 0 }
            print (sum < 0 ? -sum : sum)*span*h/3*1e6 }' span="$(awk '/^curve other/ { print $4 }' "$work/curves")" \
     "$work/curves" >"$work/spline"
 
-for name in step_faces_are_outlines step_areas_are_right step_files_on_every_grid solids_and_missing_files_stop \
+# As tests/cli/nodes.sh has it for bodies.
+step_wherever_the_programs_lie() {
+    mkdir -p "$work/bin" && cp "$build/kirsch-mesh" "$work/bin" &&
+        printf '#!/bin/sh\necho "Error   : called as $0 $* in $PWD" >&2\nexit 1\n' >"$work/bin/kirsch-gmsh" &&
+        chmod +x "$work/bin/kirsch-gmsh" &&
+        stops 2 'plate.step: called as /proc/self/fd/3 --curves step in /$' \
+            "$work/bin/kirsch-mesh" --output "$work/lies" "$work/case.yaml"
+}
+
+for name in step_wherever_the_programs_lie step_faces_are_outlines step_areas_are_right step_files_on_every_grid solids_and_missing_files_stop \
     porosity_is_met pores_stay_in_the_ring ellipses_have_their_aspect \
     what_cannot_be_met_says_how_far_it_got pores_of_the_papers_file_are_taken; do
     check $name $name

@@ -20,8 +20,14 @@ loads:
 solver: {end_time: 1 us}
 output: {every: 1 us}
 DECK
-pores() { "$build/kirsch-pores" --output "$work/$1" "$work/case.yaml" $2 $3; }
-mesh() { "$build/kirsch-mesh" --output "$work/$1" "$work/case.yaml" $2 $3; }
+run() { # program, folder, option...
+    run=$build/kirsch-$1
+    into=$work/$2
+    shift 2
+    "$run" --output "$into" "$work/case.yaml" "$@"
+}
+pores() { run pores "$@"; }
+mesh() { run mesh "$@"; }
 
 pores_are_written() {
     pores one && [ "$(grep -vc '^#' "$work/one/pores.txt")" = 4 ] &&
@@ -49,7 +55,7 @@ missing_pores_stop() {
     stops 2 "pores.txt" mesh four
 }
 a_spacing_that_does_not_fit_stops() {
-    pores one && stops 2 "mm" mesh one --set mesh.spacing='0.0903 mm'
+    pores one && stops 2 "mesh.spacing: found 0.0903 mm" mesh one --set mesh.spacing='0.0903 mm'
 }
 explain_writes_nothing() {
     pores one && rm -f "$work/one/plate.msh" && mesh one --explain && [ ! -e "$work/one/plate.msh" ]

@@ -104,8 +104,12 @@ check empty stops 2 "set 'far' has no node in it" nodes_of \
     '    far: {centre: [80 mm, 0 mm], radius: 1 mm}'
 check empty_together stops 2 "set 'none' has no node in it" nodes_of \
     '    all: {lower: [0 mm, 0 mm], upper: [30 mm, 20 mm]}' '    none: {not: [all]}'
-check unknown stops 2 "there is no set 'up' above this one or in the mesh" nodes_of \
+check unknown stops 2 "sets.a.union.1: no set above this one is called 'up'; there are left" nodes_of \
     '    a: {union: [left, up]}' '    up: {within: 3 mm, of: left}'
-check no_boundary stops 2 "the mesh has no boundary 'nowhere'" nodes_of \
+check no_boundary stops 2 "sets.a.of: no boundary of the mesh is called 'nowhere'; there are left" nodes_of \
     '    a: {within: 1 mm, of: nowhere}'
+check no_boundary_but_a_near_one stops 2 "is called 'letf'; did you mean 'left'? There are left" nodes_of \
+    '    a: {within: 1 mm, of: letf}'
+check probe stops 2 "output.probes.0.set: no set is called 'rim'; there are" nodes_of \
+    '    a: {within: 1 mm, of: left}' 'output: {probes: [{name: p, quantity: damage, set: rim}]}'
 echo "1..$count"

@@ -45,6 +45,7 @@ static const char right[] =
 
 static const struct row {
     const char *name, *find, *replace, *variant, *set, *said;
+    int meshes; /* as a program that makes the mesh reads it */
 } rows[] = {
     {"deck_unknown_key_near", "  horizon: 0.31 mm", "  horizn: 0.31 mm", NULL, NULL,
      "case.yaml:12:3: nodes.horizn: unknown key; did you mean 'horizon'?\n"
@@ -230,6 +231,17 @@ static const struct row {
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_formula_not_finite", "[free, 6 MPa]", "[free, 6/0 MPa]", NULL, NULL,
      "case.yaml:24:33: loads.0.traction.1: found '6/0 MPa': its value is not finite\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_formula_not_finite_in_si", "[free, 6 MPa]", "[free, 3e302*2 MPa]", NULL, NULL,
+     "case.yaml:24:33: loads.0.traction.1: found '3e302*2 MPa': its value is not finite\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_formula_with_a_number_too_small", "[free, 6 MPa]", "[free, 6*x/1e-400 MPa]", NULL, NULL,
+     "case.yaml:24:33: loads.0.traction.1: found '6*x/1e-400 MPa', beyond the sizes of numbers, 2.2e-308 to "
+     "1.8e308 in SI units; expected a stress, such as '1 MPa'\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_number_too_large", "density: 1190 kg/m3", "density: 1e400 kg/m3", NULL, NULL,
+     "case.yaml:19:12: material.density: found '1e400 kg/m3', beyond the sizes of numbers, 2.2e-308 to 1.8e308 in "
+     "SI units; expected a density, such as '1 kg/m^3'\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_formula_with_assignment", "[free, 6 MPa]", "[free, \"x=6 MPa\"]", NULL, NULL,
      "case.yaml:24:33: loads.0.traction.1: found 'x=6 MPa': '=' assigns, which an expression may "
@@ -514,6 +526,65 @@ static const struct row {
     {"deck_two_documents", "title: a plate", "title: a plate\n---", NULL, NULL,
      "kirsch: case.yaml:3:1: not a YAML file: a second document begins here, after '---'; a deck "
      "is one\n"},
+    {"deck_spacing_that_does_not_fit", "  spacing: 0.1 mm", "  spacing: 0.103 mm", NULL, NULL,
+     "case.yaml:10:12: mesh.spacing: found 0.103 mm, expected a length that cuts the plate of 50 mm by "
+     "25 mm into whole squares, and this makes 485.437 by 242.718: the nearest that fit are "
+     "0.102880658436 mm and 0.103305785124 mm; or keep it with geometry.width: 49.955 mm and "
+     "geometry.height: 25.029 mm\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n", 1},
+    {"deck_spacing_that_fits_one_side", "  height: 25 mm", "  height: 25.0123 mm", NULL, NULL,
+     "case.yaml:10:12: mesh.spacing: found 0.1 mm, expected a length that cuts the plate of 50 mm by "
+     "25.0123 mm into whole squares, and this makes 500 by 250.123: no spacing near it fits both "
+     "sides; keep it with geometry.height: 25 mm\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n", 1},
+    {"deck_spacing_of_a_foreign_mesh_need_not_fit", "  spacing: 0.1 mm",
+     "  spacing: 0.103 mm\n  file: my.msh\n  colour: red", NULL, NULL,
+     "case.yaml:12:3: mesh.colour: unknown key; known here: file, grid, spacing, padding, lloyd_steps\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n", 1},
+    {"deck_unknown_boundary_near", "of: top}", "of: tpo}", NULL, NULL,
+     "case.yaml:14:31: nodes.sets.top.of: no boundary is called 'tpo'; did you mean 'top'? There are "
+     "top, left, right, bottom, hole_1, hole_2, hole_3, hole_4\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n", 1},
+    {"deck_unknown_boundary_far", "of: top}", "of: lid}", NULL, NULL,
+     "case.yaml:14:31: nodes.sets.top.of: no boundary is called 'lid'; there are left, right, bottom, "
+     "top, hole_1, hole_2, hole_3, hole_4\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n", 1},
+    {"deck_one_hole_too_many", "of: top}", "of: hole_5}", NULL, NULL,
+     "case.yaml:14:31: nodes.sets.top.of: no boundary is called 'hole_5'; did you mean 'hole_1'? There "
+     "are hole_1, hole_2, hole_3, hole_4, left, right, bottom, top\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n", 1},
+    {"deck_holes_by_porosity_are_not_counted", "pores: {count: 3, radius: [0.2 mm, 0.5 mm]}",
+     "pores: {porosity: 0.01, radius: [0.2 mm, 0.5 mm]}", NULL, "loads=[{set: hole_77, traction: "
+     "[free, 1 Pa]}, {set: hole_0, traction: [free, 1 Pa]}]",
+     "command line: loads.1.set: no set is called 'hole_0'; there are left, right, bottom, top, hole_1 "
+     "and on, plate\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n", 1},
+    {"deck_unknown_sets", "no_fail: [top]\nsolver: {end_time: 50 us}\n",
+     "no_fail: [top, plaet]\n"
+     "stages:\n"
+     "  - {kind: dynamic, end_time: 1 us, loads: [{set: upper, traction: [free, 1 Pa]}]}\n", NULL,
+     "output.probes=[{name: a, quantity: stress, set: front}]",
+     "case.yaml:26:16: no_fail.1: no set is called 'plaet'; did you mean 'plate'? There are plate, left, "
+     "right, bottom, top, hole_1, hole_2, hole_3, hole_4\n"
+     "case.yaml:28:51: stages.0.loads.0.set: no set is called 'upper'; there are left, right, bottom, "
+     "top, hole_1, hole_2, hole_3, hole_4, plate\n"
+     "command line: output.probes.0.set: no set is called 'front'; there are left, right, bottom, top, "
+     "hole_1, hole_2, hole_3, hole_4, plate\n"
+     "kirsch: 3 faults in case.yaml; nothing was done\n", 1},
+    {"deck_unknown_set_of_sets", "    bottom: {within: 0.3 mm, of: bottom}",
+     "    both: {union: [bottom, low]}\n    low: {within: 0.3 mm, of: plate}", NULL, NULL,
+     "case.yaml:15:28: nodes.sets.both.union.1: no set is called 'low'; there are left, right, bottom, top, "
+     "hole_1, hole_2, hole_3, hole_4, plate\n"
+     "case.yaml:16:31: nodes.sets.low.of: no boundary is called 'plate'; there are left, right, bottom, top, "
+     "hole_1, hole_2, hole_3, hole_4\n"
+     "kirsch: 2 faults in case.yaml; nothing was done\n", 1},
+    {"deck_names_of_parts_and_solids", "  holes:\n",
+     "  outline: {parts: [{shape: rectangle}, {shape: disc, centre: [9 mm, 9 mm], radius: 3 mm, name: "
+     "notch, operation: difference}]}\n  holes:\n", NULL, "loads=[{set: notch, traction: [free, 1 Pa]}, "
+     "{set: outline, traction: [free, 1 Pa]}]",
+     "command line: loads.1.set: no set is called 'outline'; there are left, right, bottom, top, notch, "
+     "hole_1, hole_2, hole_3, hole_4, plate\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n", 1},
 };
 
 enum { ROWS = sizeof rows / sizeof *rows };
@@ -529,7 +600,8 @@ static void write_deck(const char *find, const char *replace) {
 
 static void open_row(void *argument) {
     const struct row *row = argument;
-    struct kr_case_arguments arguments = {.deck = "case.yaml", .variant = row->variant};
+    struct kr_case_arguments arguments = {
+        .deck = "case.yaml", .variant = row->variant, .meshes = row->meshes};
     const char *set[] = {row->set};
     struct kr_case c;
     arguments.set = set;

@@ -36,7 +36,11 @@ static void too_coarse(void *unused) {
 static void a_misfit_stops_and_names_the_nearest(void **unused) {
     (void)unused;
     /* 50/0.043 = 1162.8 and 25/0.043 = 581.4: only even numbers of columns fit both sides. */
-    kr_check_stops(misfit, NULL, 2, "the nearest that fit are 0.0429553265 mm and 0.0430292599 mm");
+    kr_check_stops(misfit, NULL, 2, "the nearest that fit are 0.0429553264605 mm and 0.0430292598967 mm; or keep it with "
+                   "geometry.width: 50.009 mm and geometry.height: 24.983 mm");
+    assert_int_equal(kr_lattice_fit(50e-3, 25e-3, 0.0429553264605e-3).columns, 1164);
+    assert_int_equal(kr_lattice_fit(50e-3, 25e-3, 0.0430292598967e-3).rows, 581);
+    assert_int_equal(kr_lattice_fit(50.009e-3, 24.983e-3, 0.043e-3).rows, 581);
     kr_check_stops(slight_misfit, NULL, 2, "cannot be cut into whole squares");
     kr_check_stops(too_coarse, NULL, 2, "the nearest that fits is");
 }
