@@ -58,6 +58,12 @@ char *kr_mesh_solid_fault(const struct kr_mesh *mesh);
 /** Take out points (is_gone: n_points) that nothing refers to. */
 void kr_mesh_drop_points(struct kr_mesh *mesh, const unsigned char *is_gone);
 
+/** Take out cells (is_gone: n_cells), and of the others the vertices behind the first `size` (n_cells). */
+void kr_mesh_drop_cells(struct kr_mesh *mesh, const size_t *size, const unsigned char *is_gone);
+
+/** Take out boundary edges or faces (is_gone: one each). */
+void kr_mesh_drop_facets(struct kr_mesh *mesh, const unsigned char *is_gone);
+
 /** Volume [m^3] and centroid [m] of a solid cell. */
 double kr_mesh_cell_volume(const struct kr_mesh *mesh, size_t cell, double centroid[3]);
 

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * From curves to polygons: runs, their corners, the exact area. The sides near a cell are in
+ * From curves to polygons: runs and their corners. The exact area is loop.c's, the sides near a cell are in
  * near_sides.c.
  */
 #include "polygon.h"
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "loop.h"
 
 #include <math.h>
 #include <string.h>
@@ -17,14 +18,6 @@ static const double SHORT = 0.75;
 /* A bend below this (radians) is no corner: a curve given by many short pieces is cut as one. Passing
  * such a bend by half a spacing misses it by 0.0025 spacings. */
 static const double SMOOTH = 0.01;
-
-/** A loop in the making: its corners and how far each may be moved. */
-struct loop {
-    size_t n, point_room, bulge_room, group_room, line_room;
-    double (*point)[2];
-    double (*bulge)[2]; /* outward along the normal, in proportion to what its sides lose */
-    int *group, *on_line;
-};
 
 /** Pieces `first` to `first + count` (round the curve) that are cut as one. */
 struct run {
@@ -135,18 +128,6 @@ static void count_sides(const struct kr_curve *curve, size_t n_runs, struct run 
         run[longest].sides++;
 }
 
-static void add_corner(struct loop *loop, const double point[2], const double bulge[2], int group,
-                       int on_line) {
-    KR_GROW(loop->bulge, loop->n, loop->bulge_room);
-    KR_GROW(loop->group, loop->n, loop->group_room);
-    KR_GROW(loop->on_line, loop->n, loop->line_room);
-    KR_GROW(loop->point, loop->n, loop->point_room);
-    memcpy(loop->point[loop->n], point, sizeof *loop->point);
-    memcpy(loop->bulge[loop->n], bulge, sizeof *loop->bulge);
-    loop->group[loop->n] = group;
-    loop->on_line[loop->n++] = on_line;
-}
-
 /** What moves a point on an arc outward: its normal by curvature times the square of the side. */
 static void bulge_at(const struct kr_piece *piece, double u, double side, double bulge[2]) {
     double p[2], along[2];
@@ -178,7 +159,7 @@ static double share_at_length(const struct kr_piece *piece, double length) {
     return (low + high) / 2;
 }
 
-static void cut_run(const struct kr_curve *curve, const struct run *run, struct loop *loop) {
+static void cut_run(const struct kr_curve *curve, const struct run *run, struct kr_loop *loop) {
     double side = run->length / (double)run->sides, passed = 0, bulge[2];
     size_t at = 0;
     for (size_t k = 0; k < run->sides; k++) {
@@ -194,80 +175,27 @@ static void cut_run(const struct kr_curve *curve, const struct run *run, struct 
         bulge_at(piece, u, side, bulge);
         if (k == 0 && is_fixed(curve, run))
             bulge[0] = bulge[1] = 0;
-        add_corner(loop, point, bulge, piece->group, 0);
+        kr_loop_add(loop, point, bulge, piece->group, 0);
     }
 }
 
 static void cut_run_on_line(const struct kr_piece *piece, const struct run *run,
-                            struct loop *loop) {
+                            struct kr_loop *loop) {
     double *corner = KR_NEW(double, run->sides), point[2];
     const double none[2] = {0, 0};
     int d = piece->from[0] == piece->to[0];
     sides_on_line(piece, 1, corner);
-    add_corner(loop, piece->from, none, piece->group, 1);
+    kr_loop_add(loop, piece->from, none, piece->group, 1);
     for (size_t k = 0; k + 1 < run->sides; k++) {
         memcpy(point, piece->from, sizeof point);
         point[d] = corner[k];
-        add_corner(loop, point, none, piece->group, 1);
+        kr_loop_add(loop, point, none, piece->group, 1);
     }
     kr_free(corner);
 }
 
-static double cross_sum(size_t n, double (*p)[2], double (*q)[2]) {
-    double sum = 0;
-    for (size_t k = 0; k < n; k++) {
-        size_t l = k + 1 < n ? k + 1 : 0;
-        double px = p[k][0] - p[0][0], py = p[k][1] - p[0][1];
-        double lx = p[l][0] - p[0][0], ly = p[l][1] - p[0][1];
-        sum += p == q ? px * ly - py * lx
-                      : px * q[l][1] - py * q[l][0] + q[k][0] * ly - q[k][1] * lx;
-    }
-    return sum;
-}
-
-/** Share s of their bulge by which the corners must move for the polygon to have the exact area.
- *  Twice the area is A + B s + C s^2; the root near 0 without cancellation; 0 if there is none. */
-static double share_to_move(struct loop *loop, double exact) {
-    double a = cross_sum(loop->n, loop->point, loop->point) - 2 * exact, c = 0;
-    double b = cross_sum(loop->n, loop->point, loop->bulge);
-    for (size_t k = 0; k < loop->n; k++) {
-        const double *p = loop->bulge[k], *q = loop->bulge[k + 1 < loop->n ? k + 1 : 0];
-        c += p[0] * q[1] - p[1] * q[0];
-    }
-    double under = b * b - 4 * a * c;
-    return b == 0 || under < 0 ? 0 : -2 * a / (b + copysign(sqrt(under), b));
-}
-
-/** Where hardly a corner stands on an arc (roundings smaller than a spacing), all corners that are
- *  not held by a straight side of the lattice move along their mean normal. */
-static void bulge_everywhere(struct loop *loop) {
-    for (size_t k = 0; k < loop->n; k++) {
-        size_t before = k ? k - 1 : loop->n - 1, after = k + 1 < loop->n ? k + 1 : 0;
-        const double *p = loop->point[before], *q = loop->point[after];
-        double x = q[0] - p[0], y = q[1] - p[1], length = hypot(x, y);
-        int held = loop->on_line[before] || loop->on_line[k] ||
-                   loop->group[before] != loop->group[k] || length == 0;
-        loop->bulge[k][0] = held ? 0 : y / length;
-        loop->bulge[k][1] = held ? 0 : -x / length;
-    }
-}
-
-static void mend_area(struct loop *loop, double exact) {
-    double miss = cross_sum(loop->n, loop->point, loop->point) / 2 - exact;
-    if (fabs(miss) <= 1e-14 * fabs(exact)) /* straight sides alone: whole numbers stay whole */
-        return;
-    double s = share_to_move(loop, exact);
-    if (fabs(s) > 0.5 || s == 0) { /* 1/12 to 1/6 is what circles need */
-        bulge_everywhere(loop);
-        s = share_to_move(loop, exact);
-    }
-    for (size_t k = 0; k < loop->n; k++)
-        for (int d = 0; d < 2; d++)
-            loop->point[k][d] += s * loop->bulge[k][d];
-}
-
-static struct loop cut_curve(const struct kr_curve *curve) {
-    struct loop loop = {0};
+static struct kr_loop cut_curve(const struct kr_curve *curve) {
+    struct kr_loop loop = {0};
     size_t n;
     struct run *run = runs_of(curve, &n);
     count_sides(curve, n, run);
@@ -278,11 +206,11 @@ static struct loop cut_curve(const struct kr_curve *curve) {
             cut_run(curve, &run[r], &loop);
     kr_free(run);
     if (loop.n > 2)
-        mend_area(&loop, kr_curve_area(curve));
+        kr_loop_mend(&loop, kr_curve_area(curve));
     return loop;
 }
 
-static void append(struct kr_polygon *polygon, const struct loop *loop) {
+static void append(struct kr_polygon *polygon, const struct kr_loop *loop) {
     size_t n = polygon->n, total = n + loop->n;
     polygon->point = kr_realloc(polygon->point, 2 * total, sizeof *polygon->point);
     polygon->next = kr_realloc(polygon->next, total, sizeof *polygon->next);
@@ -294,7 +222,7 @@ static void append(struct kr_polygon *polygon, const struct loop *loop) {
         polygon->group[n + k] = loop->group[k];
         polygon->on_line[n + k] = loop->on_line[k];
     }
-    polygon->area += cross_sum(loop->n, loop->point, loop->point) / 2;
+    polygon->area += kr_loop_area(loop);
     polygon->n = total;
 }
 
@@ -330,13 +258,10 @@ static void check_apart(const struct kr_polygon *polygon, const struct kr_lattic
 struct kr_polygon kr_polygon_of(const struct kr_shape *shape, const struct kr_lattice *lattice) {
     struct kr_polygon polygon = {0};
     for (size_t k = 0; k < shape->n_curves; k++) {
-        struct loop loop = cut_curve(&shape->curve[k]);
+        struct kr_loop loop = cut_curve(&shape->curve[k]);
         if (loop.n > 2)
             append(&polygon, &loop);
-        kr_free(loop.point);
-        kr_free(loop.bulge);
-        kr_free(loop.group);
-        kr_free(loop.on_line);
+        kr_loop_free(&loop);
     }
     if (polygon.n == 0)
         kr_stop(KR_EXIT_INPUT, "the holes leave nothing of the plate");

@@ -7,11 +7,12 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "cell.h"
+#include "copies.h"
+#include "corners.h"
 #include "face.h"
 #include "side.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum kind { REPEATED, FLAT, INVERTED, DUPLICATE, INNER, KINDS };
@@ -90,21 +91,6 @@ static void swap(size_t *a, size_t *b) {
     *b = kept;
 }
 
-/** Put the corners of a quadrilateral that crosses itself in an order that does not; 0 if none. */
-static int untwist(const struct kr_mesh *mesh, size_t *vertex) {
-    static const int order[5][3] = {{1, 3, 2}, {2, 1, 3}, {2, 3, 1}, {3, 1, 2}, {3, 2, 1}};
-    double corner[8], extent;
-    for (size_t k = 0; k < 5; k++) {
-        size_t tried[4] = {vertex[0], vertex[order[k][0]], vertex[order[k][1]], vertex[order[k][2]]};
-        polygon(mesh, 4, tried, corner, &extent);
-        if (kr_cell_is_sound(4, corner)) {
-            memcpy(vertex, tried, sizeof tried);
-            return 1;
-        }
-    }
-    return 0;
-}
-
 static void check_polygon(struct repair *r, size_t c) {
     enum { MOST = 64 };
     struct kr_mesh *mesh = r->mesh;
@@ -116,7 +102,7 @@ static void check_polygon(struct repair *r, size_t c) {
         note_cell(r, REPEATED, c);
     double area = n < 3 ? 0 : polygon(mesh, n, own, corner, &extent);
     /* 1e-12: what rounding leaves of a flat cell. A twisted quadrilateral may have area 0, too. */
-    int is_twisted = n == 4 && !kr_cell_is_sound(4, corner) && untwist(mesh, own);
+    int is_twisted = n == 4 && !kr_cell_is_sound(4, corner) && kr_corners_untwist(mesh->point, own);
     if (is_twisted) {
         note_cell(r, INVERTED, c);
         area = polygon(mesh, n, own, corner, &extent);
@@ -135,31 +121,6 @@ static void check_polygon(struct repair *r, size_t c) {
     }
 }
 
-/** Turn a solid inside out: its mirror image in the order of corners. */
-static void turn(size_t n, size_t *vertex) {
-    if (kr_solid_is_pieces(n)) {
-        for (size_t k = 0; k < n; k += 4)
-            turn(4, vertex + k);
-        return;
-    }
-    static const unsigned char order[][8] = {
-        [4] = {0, 2, 1, 3}, [5] = {0, 3, 2, 1, 4}, [6] = {3, 4, 5, 0, 1, 2}, [8] = {4, 5, 6, 7, 0, 1, 2, 3}};
-    const struct kr_solid *solid = kr_solid(n);
-    const unsigned char *to = order[solid->corners];
-    size_t old[20];
-    memcpy(old, vertex, n * sizeof *old);
-    for (size_t k = 0; k < solid->corners; k++)
-        vertex[k] = old[to[k]];
-    for (size_t e = 0; n > solid->corners && e < solid->n_edges; e++) {
-        unsigned char a = to[solid->edge[e][0]], b = to[solid->edge[e][1]];
-        size_t k = 0;
-        while (!(solid->edge[k][0] == a && solid->edge[k][1] == b) &&
-               !(solid->edge[k][0] == b && solid->edge[k][1] == a))
-            k++;
-        vertex[solid->corners + e] = old[solid->corners + k];
-    }
-}
-
 static void check_solid(struct repair *r, size_t c) {
     struct kr_mesh *mesh = r->mesh;
     const double *first = mesh->point + 3 * mesh->vertex[mesh->first[c]];
@@ -174,117 +135,18 @@ static void check_solid(struct repair *r, size_t c) {
     } else if (volume < 0) {
         note_cell(r, INVERTED, c);
         if (r->mend)
-            turn(r->size[c], mesh->vertex + mesh->first[c]);
+            kr_corners_turn(r->size[c], mesh->vertex + mesh->first[c]);
     }
 }
 
-/* ---- cells that stand twice ---- */
-
-static int ascending(const void *a, const void *b) {
-    size_t p = *(const size_t *)a, q = *(const size_t *)b;
-    return (p > q) - (p < q);
-}
-
-static size_t lowest(const struct repair *r, size_t c) {
-    const size_t *v = r->mesh->vertex + r->mesh->first[c];
-    size_t low = v[0];
-    for (size_t k = 1; k < r->size[c]; k++)
-        low = v[k] < low ? v[k] : low;
-    return low;
-}
-
-static int same_vertices(const struct repair *r, size_t p, size_t q) {
-    size_t a[64], b[64], n = r->size[p];
-    if (n != r->size[q])
-        return 0;
-    if (n > 64) /* a polyhedron: given twice it is given alike */
-        return !memcmp(r->mesh->vertex + r->mesh->first[p], r->mesh->vertex + r->mesh->first[q],
-                       n * sizeof *a);
-    memcpy(a, r->mesh->vertex + r->mesh->first[p], n * sizeof *a);
-    memcpy(b, r->mesh->vertex + r->mesh->first[q], n * sizeof *b);
-    qsort(a, n, sizeof *a, ascending);
-    qsort(b, n, sizeof *b, ascending);
-    return !memcmp(a, b, n * sizeof *a);
-}
-
-/** Among the cells before c with the same lowest vertex, by a chain for each vertex. */
 static void check_duplicates(struct repair *r) {
-    const struct kr_mesh *mesh = r->mesh;
-    size_t *head = KR_NEW(size_t, mesh->n_points), *next = KR_NEW(size_t, mesh->n_cells);
-    for (size_t c = 0; c < mesh->n_cells; c++) {
-        if (r->is_gone[c])
-            continue;
-        size_t *chain = &head[lowest(r, c)], other = *chain;
-        while (other && !same_vertices(r, c, other - 1))
-            other = next[other - 1];
-        if (other) {
+    unsigned char *is_copy = kr_mesh_copies(r->mesh, r->size, r->is_gone);
+    for (size_t c = 0; c < r->mesh->n_cells; c++)
+        if (is_copy[c]) {
             note_cell(r, DUPLICATE, c);
             r->is_gone[c] = 1;
-            continue;
         }
-        next[c] = *chain;
-        *chain = c + 1;
-    }
-    kr_free(head);
-    kr_free(next);
-}
-
-/* ---- taking out ---- */
-
-static void renumber_groups(struct kr_mesh *mesh, int dim, const unsigned char *is_gone,
-                            const size_t *now_at) {
-    for (size_t g = 0; g < mesh->n_groups; g++) {
-        struct kr_mesh_group *group = &mesh->group[g];
-        size_t kept = 0;
-        if (group->dim != dim)
-            continue;
-        for (size_t k = 0; k < group->count; k++)
-            if (!is_gone[group->member[k]])
-                group->member[kept++] = now_at[group->member[k]];
-        group->count = kept;
-    }
-}
-
-static void drop_cells(struct repair *r) {
-    struct kr_mesh *mesh = r->mesh;
-    size_t *now_at = KR_NEW(size_t, mesh->n_cells), kept = 0, end = 0;
-    for (size_t c = 0; c < mesh->n_cells; c++) {
-        size_t from = mesh->first[c];
-        if (r->is_gone[c])
-            continue;
-        now_at[c] = kept;
-        memmove(mesh->vertex + end, mesh->vertex + from, r->size[c] * sizeof *mesh->vertex);
-        mesh->cell_tag[kept] = mesh->cell_tag[c];
-        mesh->first[kept++] = end;
-        end += r->size[c];
-    }
-    mesh->n_cells = kept;
-    mesh->first[kept] = end;
-    renumber_groups(mesh, mesh->dim, r->is_gone, now_at);
-    kr_free(now_at);
-}
-
-static void drop_facets(struct kr_mesh *mesh, const unsigned char *is_gone) {
-    size_t n = mesh->dim == 2 ? mesh->n_edges : mesh->n_faces, kept = 0, end = 0;
-    size_t *now_at = KR_NEW(size_t, n);
-    for (size_t f = 0; f < n; f++) {
-        size_t from = mesh->dim == 2 ? 2 * f : mesh->face_first[f];
-        size_t count = mesh->dim == 2 ? 2 : mesh->face_first[f + 1] - from;
-        if (is_gone[f])
-            continue;
-        now_at[f] = kept;
-        memmove((mesh->dim == 2 ? mesh->edge : mesh->face) + end,
-                (mesh->dim == 2 ? mesh->edge : mesh->face) + from, count * sizeof *mesh->edge);
-        if (mesh->dim == 3)
-            mesh->face_first[kept] = end;
-        kept++;
-        end += count;
-    }
-    if (mesh->dim == 3 && n)
-        mesh->face_first[kept] = end;
-    *(mesh->dim == 2 ? &mesh->n_edges : &mesh->n_faces) = kept;
-    renumber_groups(mesh, mesh->dim - 1, is_gone, now_at);
-    kr_free(now_at);
+    kr_free(is_copy);
 }
 
 /* ---- facets and points ---- */
@@ -313,7 +175,7 @@ static void check_facets(struct repair *r) {
     kr_sides_free(sides);
     kr_faces_free(faces);
     if (r->mend && r->count[INNER])
-        drop_facets(mesh, is_gone);
+        kr_mesh_drop_facets(mesh, is_gone);
     kr_free(is_gone);
 }
 
@@ -394,7 +256,7 @@ void kr_mesh_repair(struct kr_mesh *mesh, const char *path, int mend) {
     }
     check_duplicates(&r);
     if (mend)
-        drop_cells(&r);
+        kr_mesh_drop_cells(mesh, r.size, r.is_gone);
     kr_free(r.size);
     kr_free(r.is_gone);
     check_facets(&r);
