@@ -41,7 +41,7 @@ not_numbers() {
             for value in "$word" "$word mm" "$word s" "$word Pa"; do
                 "$build/kirsch-solve" --check --set "$key=$value" "$work/case.yaml" >"$work/said.one" 2>&1
                 code=$?
-                [ $code -eq 2 ] && grep -q "$key: found '$value', expected" "$work/said.one" ||
+                [ $code -eq 2 ] && grep -q "$key: found '$value', .*expected" "$work/said.one" ||
                     { echo "$key = $value: exit $code"; cat "$work/said.one"; return 1; }
                 tried=$((tried + 1))
             done
