@@ -12,7 +12,7 @@
 #define KR_COARSE_H
 
 #include "block_body.h"
-#include "fill_solid.h"
+#include "gmsh_solid.h"
 
 struct kr_coarse {
     const struct kr_block_body *body;
@@ -54,5 +54,12 @@ void kr_coarse_warp(struct kr_coarse *coarse);
  *  out  group  (triangles) boundary that each belongs to, -1 on the perimeter; owned by the caller
  */
 struct kr_solid_region kr_coarse_region(const struct kr_coarse *coarse, size_t region, int **group);
+
+/** Label of a triangle on a surface of the body. */
+enum { KR_COARSE_SURFACE = 0 };
+
+/** Move the corners of a region's triangles on the surface (label: one a triangle) so that the volume behind them is right
+ *  to a higher order. */
+void kr_coarse_even(const struct kr_coarse *coarse, struct kr_solid_region *region, const int *label);
 
 #endif

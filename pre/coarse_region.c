@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
  * A region's tetrahedra and the shells around them.
- *
- * A flat facet with its corners on a bent surface loses volume: per area, the mean of the distances of
- * its edges' middles from the surface (Simpson's rule for a quadratic surface). Each corner is moved by
- * the mean of that over its facets, weighted by their areas; so the volume is right to a higher order.
  */
 #include "coarse.h"
 
@@ -16,10 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { INNER = -1, SURFACE = 0, FIRST_SIDE = -2 }; /* labels as in cut_cells.c */
-
-/* No corner moves farther than this, in spacings: at sharp edges the rule overshoots. */
-static const double FARTHEST = 0.25;
+enum { INNER = -1, SURFACE = KR_COARSE_SURFACE, FIRST_SIDE = -2 }; /* labels as in cut_cells.c */
 
 /** A region in the making. Points are found by the ends of the edge that they cut. */
 struct making {
@@ -174,100 +167,6 @@ static void drop_doubled(struct making *m) {
     kr_free(is_gone);
 }
 
-/* ---- volume ---- */
-
-/** Unit normal into the body at a place near the surface; along the block's sides where it lies on
- *  one. */
-static void normal_at(const struct kr_coarse *coarse, const double p[3], double normal[3]) {
-    const double step = 1e-4;
-    size_t cutter;
-    double length = 0;
-    for (int d = 0; d < 3; d++) {
-        double q[3] = {p[0], p[1], p[2]};
-        normal[d] = 0;
-        if (p[d] == 0 || p[d] == (double)coarse->body->n[d])
-            continue;
-        q[d] = p[d] + step;
-        normal[d] = kr_coarse_value(coarse->body, q, &cutter);
-        q[d] = p[d] - step;
-        normal[d] -= kr_coarse_value(coarse->body, q, &cutter);
-        length = hypot(length, normal[d]);
-    }
-    for (int d = 0; d < 3 && length > 0; d++)
-        normal[d] /= length;
-}
-
-static double area_of(const double *a, const double *b, const double *c) {
-    double u[3], v[3];
-    for (int d = 0; d < 3; d++) {
-        u[d] = b[d] - a[d];
-        v[d] = c[d] - a[d];
-    }
-    return hypot(hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2]),
-                 u[0] * v[1] - u[1] * v[0]) / 2;
-}
-
-/** Mean of the function at the middles of a facet's edges. */
-static double gap_of(const struct making *m, const size_t *v) {
-    double sum = 0;
-    for (int k = 0; k < 3; k++) {
-        const double *p = m->r.point[v[k]], *q = m->r.point[v[(k + 1) % 3]];
-        const double middle[3] = {(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2};
-        size_t cutter;
-        sum += kr_coarse_value(m->coarse->body, middle, &cutter);
-    }
-    return sum / 3;
-}
-
-/** Whether a tetrahedron has kept a volume. */
-static int is_sound(const struct making *m, const size_t *v) {
-    double u[3][3];
-    for (int k = 0; k < 3; k++)
-        for (int d = 0; d < 3; d++)
-            u[k][d] = m->r.point[v[k + 1]][d] - m->r.point[v[0]][d];
-    return u[0][0] * (u[1][1] * u[2][2] - u[1][2] * u[2][1]) +
-               u[0][1] * (u[1][2] * u[2][0] - u[1][0] * u[2][2]) +
-               u[0][2] * (u[1][0] * u[2][1] - u[1][1] * u[2][0]) > 1e-6;
-}
-
-static void even_out(struct making *m) {
-    size_t n = m->r.n_points, again = 1;
-    double *area = KR_NEW(double, n), *lost = KR_NEW(double, n);
-    double(*old)[3] = kr_alloc(n, sizeof *old);
-    memcpy(old, m->r.point, n * sizeof *old);
-    for (size_t t = 0; t < m->r.n_triangles; t++) {
-        const size_t *v = m->r.triangle[t];
-        if (m->label[t] != SURFACE)
-            continue;
-        double a = area_of(m->r.point[v[0]], m->r.point[v[1]], m->r.point[v[2]]), gap = gap_of(m, v);
-        for (int k = 0; k < 3; k++) {
-            area[v[k]] += a;
-            lost[v[k]] += a * gap;
-        }
-    }
-    for (size_t p = 0; p < n; p++) {
-        double normal[3], move;
-        if (area[p] == 0)
-            continue;
-        normal_at(m->coarse, old[p], normal);
-        move = fmax(-FARTHEST, fmin(FARTHEST, -lost[p] / area[p]));
-        for (int d = 0; d < 3; d++)
-            m->r.point[p][d] += move * normal[d];
-    }
-    while (again) { /* a corner that would turn a tetrahedron over stays where it was */
-        again = 0;
-        for (size_t c = 0; c < m->r.n_cells; c++)
-            for (int k = 0; k < 4 && !is_sound(m, m->r.cell[c]); k++) {
-                size_t p = m->r.cell[c][k];
-                again |= memcmp(m->r.point[p], old[p], sizeof *old) != 0;
-                memcpy(m->r.point[p], old[p], sizeof *old);
-            }
-    }
-    kr_free(area);
-    kr_free(lost);
-    kr_free(old);
-}
-
 static int *groups_of(const struct making *m) {
     const struct kr_block_body *body = m->coarse->body;
     int *group = KR_NEW(int, m->r.n_triangles);
@@ -320,7 +219,7 @@ struct kr_solid_region kr_coarse_region(const struct kr_coarse *coarse, size_t r
         for (size_t t = 0; t < 6 && coarse->region[c] == region; t++)
             add_tetrahedron(&m, c, t);
     drop_doubled(&m);
-    even_out(&m);
+    kr_coarse_even(coarse, &m.r, m.label);
     *group = groups_of(&m);
     sort_points(&m.r);
     kr_free(m.label);

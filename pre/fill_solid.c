@@ -1,34 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Asking gmsh for tetrahedra, and checking what it gives: every cell's volume is positive, the cells'
+ * Requests to gmsh for tetrahedra, and checks of its replies: every cell's volume is positive, the cells'
  * outer faces are the triangles asked for and nothing else, and the volumes add up.
  */
 #include "fill_solid.h"
 
-#include "base/child.h"
-#include "base/error.h"
 #include "base/memory.h"
 #include "face.h"
 
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
-
-enum { LONGEST = 300 };
 
 /* Mesh.Algorithm3D is 1, Delaunay. Of the others in Debian's gmsh 4.8, 4 needs Netgen, which is absent, 9
  * crashes, and 10 (HXT) differs from run to run. So the second method leaves out what moves and swaps
  * cells afterwards (Mesh.Optimize). The largest length of an edge, in spacings, is that of which cells
  * have one cube in the mean. */
-static const struct {
-    const char *name;
-    int algorithm, optimize;
-} methods[] = {{"gmsh's Delaunay", 1, 1}, {"gmsh's Delaunay, not optimized", 1, 0}};
-enum { METHODS = sizeof methods / sizeof *methods };
-
-/* The one warning that is no failure, gmsh's last: slivers are left. Cells are checked one by one, their least
- * volume stands in the report, and without moving and swapping there would be more. */
-static const char ILL_SHAPED[] = "ill-shaped tets are still in the mesh";
+const struct kr_solid_method kr_solid_methods[KR_SOLID_METHODS] = {{"gmsh's Delaunay", 1, 1}, {"gmsh's Delaunay, not optimized", 1, 0}};
 
 static double six_volumes(const double *a, const double *b, const double *c, const double *d) {
     double u[3], v[3], w[3];
@@ -87,12 +74,11 @@ static size_t shells_of(const struct kr_solid_region *r, size_t *shell) {
     return count;
 }
 
-/** Write a request; `sent` gets the region's points in the order in which they go out. */
-static void ask(const struct kr_solid_region *r, size_t method, FILE *file, size_t *sent) {
+void kr_solid_ask(const struct kr_solid_region *r, size_t method, FILE *file, size_t *sent) {
     size_t *shell = KR_NEW(size_t, r->n_shell_points), *local = KR_NEW(size_t, r->n_shell_points);
     size_t shells = shells_of(r, shell), total = 0;
-    fprintf(file, "solid algorithm %d optimize %d size 1.6 shells %zu\n", methods[method].algorithm,
-            methods[method].optimize, shells);
+    fprintf(file, "solid algorithm %d optimize %d size 1.6 shells %zu\n", kr_solid_methods[method].algorithm,
+            kr_solid_methods[method].optimize, shells);
     for (size_t s = 0; s < shells; s++) {
         size_t points = 0, triangles = 0;
         for (size_t p = 0; p < r->n_shell_points; p++)
@@ -195,8 +181,7 @@ static char *boundary_fault(const struct kr_solid_region *got) {
     return fault;
 }
 
-/** Take a reply that passes every check; else what is wrong, owned by the caller. */
-static char *take(struct kr_solid_region *r, const size_t *sent, FILE *file) {
+char *kr_solid_take(struct kr_solid_region *r, const size_t *sent, FILE *file) {
     struct kr_solid_region got = *r;
     got.point = kr_alloc(r->n_shell_points, sizeof *got.point);
     memcpy(got.point, r->point, r->n_shell_points * sizeof *r->point);
@@ -211,105 +196,4 @@ static char *take(struct kr_solid_region *r, const size_t *sent, FILE *file) {
     if (!fault)
         *r = got;
     return fault;
-}
-
-/* ---- children ---- */
-
-struct attempt {
-    size_t region, method, *sent;
-    struct kr_child child;
-};
-
-struct work {
-    struct kr_solid_region *region;
-    char *helper;
-    unsigned seconds;
-    size_t running;
-    struct attempt *attempt;
-};
-
-static void start(struct work *work, size_t region, size_t method) {
-    struct attempt *attempt = &work->attempt[work->running++];
-    *attempt = (struct attempt){.region = region, .method = method};
-    attempt->sent = KR_NEW(size_t, work->region[region].n_shell_points);
-    kr_child_prepare(&attempt->child);
-    ask(&work->region[region], method, attempt->child.in, attempt->sent);
-    kr_child_start(&attempt->child, work->helper, work->seconds);
-}
-
-/** What is wrong with an ended attempt, owned by the caller; NULL: nothing, and its mesh is taken. */
-static char *judge(struct work *work, struct attempt *attempt, int status) {
-    char *trouble = kr_child_trouble(status, work->seconds);
-    char *line = kr_child_line(&attempt->child, "Error"), *both;
-    if (!line)
-        line = kr_child_line(&attempt->child, "Warning");
-    if (line && strstr(line, ILL_SHAPED))
-        line = kr_free(line);
-    if (!trouble && !line)
-        return take(&work->region[attempt->region], attempt->sent, attempt->child.out);
-    both = trouble && line ? kr_text("%s; it said: %s", trouble, line)
-           : trouble       ? kr_text_copy(trouble)
-                           : kr_text("it said: %s", line);
-    kr_free(trouble);
-    kr_free(line);
-    return both;
-}
-
-/** Wait for one child and take its mesh, or go on with the next method. */
-static void finish_one(struct work *work) {
-    int status;
-    pid_t pid = kr_child_wait(&status);
-    size_t k = 0;
-    while (k < work->running && work->attempt[k].child.pid != pid)
-        k++;
-    if (k == work->running)
-        return; /* a child of somebody else */
-    struct attempt done = work->attempt[k];
-    struct kr_solid_region *r = &work->region[done.region];
-    work->attempt[k] = work->attempt[--work->running];
-    char *trouble = judge(work, &done, status);
-    r->seconds += kr_child_clock() - done.child.started;
-    kr_child_close(&done.child);
-    kr_free(done.sent);
-    if (!trouble) {
-        r->method = methods[done.method].name;
-        return;
-    }
-    if (done.method + 1 == METHODS)
-        kr_stop(KR_EXIT_LIBRARY,
-                "gmsh cannot fill the region %s by any of %d methods; the last, %s, failed: %s. "
-                "Another spacing or padding may help, or the voronoi grid",
-                r->name, METHODS, methods[done.method].name, trouble);
-    kr_warn("region %s: %s failed: %s; trying %s", r->name, methods[done.method].name, trouble,
-            methods[done.method + 1].name);
-    kr_free(trouble);
-    start(work, done.region, done.method + 1);
-}
-
-void kr_solid_fill(size_t n_regions, struct kr_solid_region *region,
-                   const struct kr_gmsh_options *options) {
-    long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    size_t children = options->children > 0 ? (size_t)options->children
-                      : processors > 0      ? (size_t)processors
-                                            : 1;
-    char *helper = options->helper ? kr_text("%s-solid", options->helper)
-                                   : kr_child_beside("kirsch-gmsh-solid");
-    struct work work = {region, helper, options->seconds ? options->seconds : LONGEST, 0,
-                        KR_NEW(struct attempt, children)};
-    size_t started = 0;
-    while (started < n_regions || work.running) {
-        if (started < n_regions && work.running < children)
-            start(&work, started++, 0);
-        else
-            finish_one(&work);
-    }
-    kr_free(work.attempt);
-    kr_free(helper);
-}
-
-void kr_solid_region_free(struct kr_solid_region *region) {
-    kr_free(region->triangle);
-    kr_free(region->point);
-    kr_free(region->cell);
-    kr_free((char *)region->name);
 }

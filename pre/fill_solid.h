@@ -1,44 +1,27 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * gmsh fills regions in space with tetrahedra, each in a child process of kirsch-gmsh-solid; the
- * counterpart of gmsh.h. Nothing that a child says is believed.
- *
- * A request, lengths in spacings:
- *    solid algorithm 1 optimize 1 size 1.6 shells S
- *    shell points N triangles M, N lines x y z, M lines of three places among them: the outer shell
- *                                first; seen from outside the region counter-clockwise
- * The reply:
- *    points N and N lines x y z: new ones, behind those of all shells
- *    cells M and M lines of four places; end
+ * What a child that makes tetrahedra is asked and what it answers; the words are those of gmsh_solid.h. Used by
+ * gmsh_solid.c only.
  */
 #ifndef KR_FILL_SOLID_H
 #define KR_FILL_SOLID_H
 
-#include "gmsh.h"
+#include "gmsh_solid.h"
 
-struct kr_solid_region {
-    /* asked */
-    size_t n_shell_points; /* the first points */
-    size_t n_triangles;
-    size_t (*triangle)[3];
+#include <stdio.h>
+
+enum { KR_SOLID_METHODS = 2 };
+
+/** The ways in which a region is filled, the best first. */
+extern const struct kr_solid_method {
     const char *name;
-    /* got; before, the lattice's tetrahedra that the shells were taken from */
-    size_t n_points;
-    double (*point)[3]; /* spacings */
-    size_t n_cells;
-    size_t (*cell)[4];
-    const char *method; /* words for the report */
-    double seconds;
-};
+    int algorithm, optimize; /* gmsh's Mesh.Algorithm3D and Mesh.Optimize */
+} kr_solid_methods[KR_SOLID_METHODS];
 
-/** Fill regions, several at once; the result of each depends on its own request only. Where an
- *  attempt fails, a warning says why and the next method is tried; stops where all have failed. */
-void kr_solid_fill(size_t n_regions, struct kr_solid_region *region,
-                   const struct kr_gmsh_options *options);
+/** Write a request; `sent` (n_shell_points) gets the region's points in the order in which they go out. */
+void kr_solid_ask(const struct kr_solid_region *region, size_t method, FILE *file, size_t *sent);
 
-/** Volume that the triangles enclose. */
-double kr_solid_region_volume(const struct kr_solid_region *region);
-
-void kr_solid_region_free(struct kr_solid_region *region);
+/** Take a reply that passes every check; else what is wrong, owned by the caller. */
+char *kr_solid_take(struct kr_solid_region *region, const size_t *sent, FILE *file);
 
 #endif

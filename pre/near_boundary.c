@@ -232,51 +232,6 @@ static struct kr_mesh *assemble(const struct filling *f, const unsigned char *ma
     return kr_builder_end(&builder);
 }
 
-/** The longest of a region's sides whose middle is no lattice point: its place on a loop. 0 where
- *  there is none. */
-static int longest_side(const struct filling *f, const struct kr_region *region, size_t *loop,
-                        size_t *place) {
-    size_t n_lattice = (f->body->lattice.columns + 1) * (f->body->lattice.rows + 1);
-    double longest = 0;
-    for (size_t l = 0; l < region->n_loops; l++)
-        for (size_t k = 0; k < region->loop[l].n; k++) {
-            size_t from = region->loop[l].point[k];
-            size_t to = region->loop[l].point[k + 1 < region->loop[l].n ? k + 1 : 0];
-            double p[2], q[2];
-            kr_region_place(&f->body->lattice, &f->polygon, from, p);
-            kr_region_place(&f->body->lattice, &f->polygon, to, q);
-            double length = hypot(q[0] - p[0], q[1] - p[1]);
-            int is_side = from >= n_lattice && !f->polygon.on_line[from - n_lattice];
-            double x = (p[0] + q[0]) / 2, y = (p[1] + q[1]) / 2;
-            if (!is_side || length <= longest || (x == nearbyint(x) && y == nearbyint(y)))
-                continue;
-            longest = length;
-            *loop = l;
-            *place = k;
-        }
-    return longest > 0;
-}
-
-/** Quadrilaterals alone fill only a region with an even number of sides: where it is odd, halve the
- *  longest side of the polygon. No other region has that side. */
-static void even_out(struct filling *f) {
-    size_t n_lattice = (f->body->lattice.columns + 1) * (f->body->lattice.rows + 1);
-    for (size_t r = 0; r < f->regions.count; r++) {
-        struct kr_region *region = &f->regions.region[r];
-        size_t sides = 0, l, k = 0;
-        for (l = 0; l < region->n_loops; l++)
-            sides += region->loop[l].n;
-        if (sides % 2 == 0 || !longest_side(f, region, &l, &k))
-            continue;
-        struct kr_region_loop *loop = &region->loop[l];
-        size_t corner = kr_polygon_split(&f->polygon, loop->point[k] - n_lattice);
-        loop->point = kr_realloc(loop->point, loop->n + 1, sizeof *loop->point);
-        memmove(loop->point + k + 2, loop->point + k + 1, (loop->n - k - 1) * sizeof *loop->point);
-        loop->point[k + 1] = n_lattice + corner;
-        loop->n++;
-    }
-}
-
 struct kr_mesh *kr_near_boundary_mesh(const struct kr_plate *plate,
                                       const struct kr_plate_body *body,
                                       struct kr_plate_report *report) {
@@ -292,7 +247,7 @@ struct kr_mesh *kr_near_boundary_mesh(const struct kr_plate *plate,
                 1e3 * plate->padding, 1e3 * plate->spacing);
     unsigned char *marked = mark_cells(plate, body, &f.polygon);
     f.regions = kr_regions_of(&body->lattice, &f.polygon, body->holder, marked);
-    even_out(&f);
+    kr_regions_even(&f.regions, &body->lattice, &f.polygon);
     f.asked = KR_NEW(struct kr_gmsh_region, f.regions.count);
     f.name = KR_NEW(char *, f.regions.count);
     f.origin = kr_alloc(f.regions.count, sizeof *f.origin);

@@ -223,6 +223,49 @@ struct kr_regions kr_regions_of(const struct kr_lattice *lattice, const struct k
     return regions;
 }
 
+/** The longest of a region's sides whose middle is no lattice point: its place on a loop. 0 where
+ *  there is none. */
+static int longest_side(const struct kr_lattice *lattice, const struct kr_polygon *polygon,
+                        const struct kr_region *region, size_t *loop, size_t *place) {
+    size_t n_lattice = lattice_points(lattice);
+    double longest = 0;
+    for (size_t l = 0; l < region->n_loops; l++)
+        for (size_t k = 0; k < region->loop[l].n; k++) {
+            size_t from = region->loop[l].point[k];
+            size_t to = region->loop[l].point[k + 1 < region->loop[l].n ? k + 1 : 0];
+            double p[2], q[2];
+            kr_region_place(lattice, polygon, from, p);
+            kr_region_place(lattice, polygon, to, q);
+            double length = hypot(q[0] - p[0], q[1] - p[1]);
+            int is_side = from >= n_lattice && !polygon->on_line[from - n_lattice];
+            double x = (p[0] + q[0]) / 2, y = (p[1] + q[1]) / 2;
+            if (!is_side || length <= longest || (x == nearbyint(x) && y == nearbyint(y)))
+                continue;
+            longest = length;
+            *loop = l;
+            *place = k;
+        }
+    return longest > 0;
+}
+
+void kr_regions_even(struct kr_regions *regions, const struct kr_lattice *lattice, struct kr_polygon *polygon) {
+    size_t n_lattice = lattice_points(lattice);
+    for (size_t r = 0; r < regions->count; r++) {
+        struct kr_region *region = &regions->region[r];
+        size_t sides = 0, l, k = 0;
+        for (l = 0; l < region->n_loops; l++)
+            sides += region->loop[l].n;
+        if (sides % 2 == 0 || !longest_side(lattice, polygon, region, &l, &k))
+            continue;
+        struct kr_region_loop *loop = &region->loop[l];
+        size_t corner = kr_polygon_split(polygon, loop->point[k] - n_lattice);
+        loop->point = kr_realloc(loop->point, loop->n + 1, sizeof *loop->point);
+        memmove(loop->point + k + 2, loop->point + k + 1, (loop->n - k - 1) * sizeof *loop->point);
+        loop->point[k + 1] = n_lattice + corner;
+        loop->n++;
+    }
+}
+
 void kr_regions_free(struct kr_regions *regions) {
     for (size_t r = 0; r < regions->count; r++) {
         for (size_t l = 0; l < regions->region[r].n_loops; l++)

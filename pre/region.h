@@ -47,6 +47,10 @@ size_t kr_region_corner(const struct kr_lattice *lattice, const struct kr_polygo
 void kr_region_place(const struct kr_lattice *lattice, const struct kr_polygon *polygon,
                      size_t point, double place[2]);
 
+/** Give each region an even number of sides, which quadrilaterals alone need to fill it: where it is odd, halve the
+ *  longest of the polygon's sides at it. No other region has that side. */
+void kr_regions_even(struct kr_regions *regions, const struct kr_lattice *lattice, struct kr_polygon *polygon);
+
 void kr_regions_free(struct kr_regions *regions);
 
 #endif

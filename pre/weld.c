@@ -91,19 +91,6 @@ static size_t point_at(struct kr_weld *weld, const double p[2]) {
     return weld->n_points++;
 }
 
-static void add_point(struct kr_tile *tile, size_t point, long side) {
-    KR_GROW(tile->side, tile->n, tile->side_room);
-    KR_GROW(tile->point, tile->n, tile->point_room);
-    tile->point[tile->n] = point;
-    tile->side[tile->n++] = side;
-}
-
-static void free_tile(struct kr_tile *tile) {
-    kr_free(tile->point);
-    kr_free(tile->side);
-    *tile = (struct kr_tile){0};
-}
-
 void kr_weld_add(struct kr_weld *weld, const struct kr_ring *ring, int is_scrap) {
     struct kr_tile tile = {.is_scrap = is_scrap};
     for (size_t k = 0; k < ring->n; k++) {
@@ -111,12 +98,12 @@ void kr_weld_add(struct kr_weld *weld, const struct kr_ring *ring, int is_scrap)
         if (tile.n && tile.point[tile.n - 1] == point)
             tile.side[tile.n - 1] = ring->side[k]; /* the side between them has no length */
         else
-            add_point(&tile, point, ring->side[k]);
+            kr_tile_add(&tile, point, ring->side[k]);
     }
     while (tile.n > 1 && tile.point[0] == tile.point[tile.n - 1])
         tile.n--;
     if (tile.n < 3) {
-        free_tile(&tile);
+        kr_tile_free(&tile);
         return;
     }
     KR_GROW(weld->tile, weld->n_tiles, weld->tiles_room);
@@ -195,65 +182,15 @@ static void insert_corners(struct kr_weld *weld, const struct kr_sides *sides, s
         struct between found[16];
         if (tile->side[k] == KR_SIDE_INNER && !kr_sides_find(sides, to, from, NULL))
             n = points_between(weld, from, to, found);
-        add_point(&more, from, tile->side[k]);
+        kr_tile_add(&more, from, tile->side[k]);
         for (size_t m = 0; m < n; m++)
-            add_point(&more, found[m].point, tile->side[k]);
+            kr_tile_add(&more, found[m].point, tile->side[k]);
     }
-    free_tile(tile);
+    kr_tile_free(tile);
     *tile = more;
 }
 
 /* ---- scraps ---- */
-
-/** Union of two tiles that share sides, if it is one simple ring: `into` then has it. */
-static int join(struct kr_tile *into, const struct kr_tile *scrap) {
-    size_t n = into->n + scrap->n, start = n, left = 0;
-    size_t *from = KR_NEW(size_t, n), *to = KR_NEW(size_t, n);
-    long *side = KR_NEW(long, n);
-    unsigned char *gone = KR_NEW(unsigned char, n);
-    for (size_t k = 0; k < n; k++) {
-        const struct kr_tile *tile = k < into->n ? into : scrap;
-        size_t at = k < into->n ? k : k - into->n;
-        from[k] = tile->point[at];
-        to[k] = tile->point[at + 1 < tile->n ? at + 1 : 0];
-        side[k] = tile->side[at];
-    }
-    for (size_t k = 0; k < into->n; k++)
-        for (size_t l = into->n; l < n; l++)
-            if (from[k] == to[l] && to[k] == from[l])
-                gone[k] = gone[l] = 1;
-    for (size_t k = n; k-- > 0;)
-        if (!gone[k]) {
-            start = k;
-            left++;
-        }
-    struct kr_tile ring = {.is_scrap = 0};
-    size_t at = start;
-    while (start < n && left < n && ring.n < left) {
-        size_t next = n, choices = 0;
-        add_point(&ring, from[at], side[at]);
-        for (size_t k = 0; k < n; k++)
-            if (!gone[k] && from[k] == to[at]) {
-                next = k;
-                choices++;
-            }
-        if (choices != 1 || next == start)
-            break;
-        at = next;
-    }
-    int is_one = left < n && ring.n == left && left > 2 && to[at] == from[start];
-    if (is_one) {
-        free_tile(into);
-        *into = ring;
-    } else {
-        free_tile(&ring);
-    }
-    kr_free(from);
-    kr_free(to);
-    kr_free(side);
-    kr_free(gone);
-    return is_one;
-}
 
 static double side_length(const struct kr_weld *weld, size_t from, size_t to) {
     double a[2], b[2];
@@ -281,8 +218,8 @@ static void join_scrap(struct kr_weld *weld, const struct kr_sides *sides, size_
         }
         if (best == t)
             return;
-        if (join(&weld->tile[best], scrap)) {
-            free_tile(scrap);
+        if (kr_tile_join(&weld->tile[best], scrap)) {
+            kr_tile_free(scrap);
             return;
         }
         limit = longest;
@@ -303,7 +240,7 @@ void kr_weld_close(struct kr_weld *weld) {
 
 void kr_weld_end(struct kr_weld *weld) {
     for (size_t t = 0; t < weld->n_tiles; t++)
-        free_tile(&weld->tile[t]);
+        kr_tile_free(&weld->tile[t]);
     kr_free(weld->tile);
     kr_free(weld->other);
     kr_free(weld->first);

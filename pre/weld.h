@@ -7,13 +7,7 @@
 #define KR_WELD_H
 
 #include "clip.h"
-
-struct kr_tile {
-    size_t n, point_room, side_room;
-    size_t *point; /* numbers as in region.h where below its count; further points follow */
-    long *side;    /* as in struct kr_ring */
-    int is_scrap;  /* a piece without a seed: to be joined to a neighbour */
-};
+#include "tile.h"
 
 struct kr_weld {
     const struct kr_polygon *polygon;

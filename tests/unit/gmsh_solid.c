@@ -8,7 +8,7 @@
 #include "folder.h"
 
 #include "base/error.h"
-#include "fill_solid.h"
+#include "gmsh_solid.h"
 
 #include <time.h>
 
