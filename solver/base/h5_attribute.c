@@ -7,6 +7,9 @@
 #include "base/h5_private.h"
 #include "base/memory.h"
 
+#include <setjmp.h>
+#include <signal.h>
+
 static hid_t text_type(void) {
     hid_t type = H5Tcopy(H5T_C_S1);
     H5Tset_size(type, H5T_VARIABLE);
@@ -99,10 +102,29 @@ int64_t kr_h5_get_int64(const struct kr_h5 *file, const char *object, const char
     return value;
 }
 
+static sigjmp_buf fallen;
+
+static void fall(int number) {
+    (void)number;
+    siglongjmp(fallen, 1);
+}
+
+/** Read a text of any length; 0 where that fails. HDF5 1.10 follows the place of such a text in a damaged file to where
+ *  there is no memory; whoever reads it stops then, so nothing is left to be put right. */
+static int read_guarded(hid_t attribute, hid_t type, char **text) {
+    struct sigaction before, guard = {.sa_handler = fall};
+    volatile int done = 0;
+    sigaction(SIGSEGV, &guard, &before);
+    if (!sigsetjmp(fallen, 1))
+        done = H5Aread(attribute, type, text) >= 0;
+    sigaction(SIGSEGV, &before, NULL);
+    return done;
+}
+
 /** A text of any length, as we write them. */
 static char *read_variable(hid_t attribute, hid_t type) {
     char *text = NULL, *copy;
-    if (H5Aread(attribute, type, &text) < 0 || !text)
+    if (!read_guarded(attribute, type, &text) || !text)
         return NULL;
     copy = kr_text_copy(text);
     H5free_memory(text);
@@ -122,9 +144,9 @@ char *kr_h5_get_text(const struct kr_h5 *file, const char *object, const char *n
     hid_t type = H5Aget_type(attribute);
     char *text =
         H5Tis_variable_str(type) > 0 ? read_variable(attribute, type) : read_fixed(attribute, type);
-    H5Tclose(type);
-    H5Aclose(attribute);
     if (!text)
         fail_attribute(file, object, name, "the file is damaged");
+    H5Tclose(type);
+    H5Aclose(attribute);
     return text;
 }

@@ -119,7 +119,7 @@ int kr_unit_beyond(const char *text) {
 
 char *kr_unit_beyond_said(const char *text, const char *unit) {
     const char *common = kr_unit_common(unit);
-    return kr_text("found '%.60s', beyond the sizes of numbers, 2.2e-308 to 1.8e308 in SI units; expected %s, "
+    return kr_text("found '%.60s', expected %s between 2.2e-308 and 1.8e308 in SI units, "
                    "such as '1%s%s'", text, kr_unit_noun(unit), *common ? " " : "", common);
 }
 

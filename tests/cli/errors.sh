@@ -39,6 +39,26 @@ changed_nodes() { # words, Python statement about `file`
     stops 2 "$1" "$build/kirsch-solve" --output "$work/changed" "$work/case.yaml"
 }
 
+# A bit changed where a file says in which place its kind stands: HDF5 reads from there, whatever is there or not.
+place_of_a_text() {
+    [ -f "$work/plate/plate.nodes.h5" ] || steps "$work/plate" "mesh nodes" || return
+    file=$work/place/plate.nodes.h5
+    mkdir -p "$work/place" && cp "$work/plate/plate.nodes.h5" "$file" || return
+    begins=$(grep -abo 'format' "$file" | head -n 1 | cut -d: -f1)
+    refused=0
+    for at in $(seq $((begins + 40)) $((begins + 55))); do # length, address and number of the text
+        byte=$(od -An -tu1 -j "$at" -N 1 "$work/plate/plate.nodes.h5")
+        cp "$work/plate/plate.nodes.h5" "$file"
+        printf "\\$(printf %03o $((byte ^ 32)))" | dd of="$file" bs=1 seek="$at" conv=notrunc 2>/dev/null
+        "$build/kirsch-solve" --explain --output "$work/place" "$work/case.yaml" >"$work/stop" 2>&1
+        code=$?
+        [ $code -eq 0 ] && continue
+        refused=$((refused + 1))
+        grep plate.nodes.h5 "$work/stop" && [ $code -eq 2 ] || { echo "ended with $code, byte $at"; return 1; }
+    done
+    [ $refused -gt 4 ]
+}
+
 # A solid for kirsch, which is told before the mesh is made what no mesh can mend.
 solid() { # depth or nothing, option...
     mkdir -p "$work/solid"
@@ -68,6 +88,7 @@ check cell_that_begins_beyond_the_end changed_nodes "expected ascending places" 
 check array_larger_than_the_file changed_nodes "more numbers than the file can hold" \
     "del file['sets/top']; file.create_dataset('sets/top', shape=(10**12,), dtype='i8', chunks=(1000,))"
 check results_as_node_file other_file
+check place_of_a_text_that_is_damaged place_of_a_text
 check nodes_of_another_horizon stops 2 "made for 0.0015 m; run kirsch-nodes again" \
     solve --set nodes.horizon='1.6 mm'
 check nodes_of_another_model stops 2 "made for 'plane-stress'" solve --set material.model=plane-strain

@@ -236,12 +236,12 @@ static const struct row {
      "case.yaml:24:33: loads.0.traction.1: found '3e302*2 MPa': its value is not finite\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_formula_with_a_number_too_small", "[free, 6 MPa]", "[free, 6*x/1e-400 MPa]", NULL, NULL,
-     "case.yaml:24:33: loads.0.traction.1: found '6*x/1e-400 MPa', beyond the sizes of numbers, 2.2e-308 to "
-     "1.8e308 in SI units; expected a stress, such as '1 MPa'\n"
+     "case.yaml:24:33: loads.0.traction.1: found '6*x/1e-400 MPa', expected a stress between 2.2e-308 and "
+     "1.8e308 in SI units, such as '1 MPa'\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_number_too_large", "density: 1190 kg/m3", "density: 1e400 kg/m3", NULL, NULL,
-     "case.yaml:19:12: material.density: found '1e400 kg/m3', beyond the sizes of numbers, 2.2e-308 to 1.8e308 in "
-     "SI units; expected a density, such as '1 kg/m^3'\n"
+     "case.yaml:19:12: material.density: found '1e400 kg/m3', expected a density between 2.2e-308 and 1.8e308 in "
+     "SI units, such as '1 kg/m^3'\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_formula_with_assignment", "[free, 6 MPa]", "[free, \"x=6 MPa\"]", NULL, NULL,
      "case.yaml:24:33: loads.0.traction.1: found 'x=6 MPa': '=' assigns, which an expression may "

@@ -44,8 +44,8 @@ static void unit_converts_to_si_exactly(void **state) {
     assert_int_equal(kr_memory_outstanding(), 0);
 }
 
-#define BEYOND(text, cure) \
-    "found '" text "', beyond the sizes of numbers, 2.2e-308 to 1.8e308 in SI units; expected " cure
+#define BEYOND(text, noun, cure) \
+    "found '" text "', expected " noun " between 2.2e-308 and 1.8e308 in SI units, such as " cure
 
 static const struct {
     const char *text, *unit, *why;
@@ -62,13 +62,13 @@ static const struct {
     {"nan", "1", "found 'nan', expected a pure number, without a unit"},
     {"inf m", "m", "found 'inf m', expected a length with its unit, such as '1 mm'"},
     {"0x10 m", "m", "found '0x10 m', expected a length with its unit, such as '1 mm'"},
-    {"1e999 m", "m", BEYOND("1e999 m", "a length, such as '1 mm'")},
-    {"-1e400 mm", "m", BEYOND("-1e400 mm", "a length, such as '1 mm'")},
-    {"1e-400 mm", "m", BEYOND("1e-400 mm", "a length, such as '1 mm'")},
-    {"3e-310 m", "m", BEYOND("3e-310 m", "a length, such as '1 mm'")},
-    {"1e308 km", "m", BEYOND("1e308 km", "a length, such as '1 mm'")},
-    {"1e-300 nm", "m", BEYOND("1e-300 nm", "a length, such as '1 mm'")},
-    {"0.00001e999999999999", "1", BEYOND("0.00001e999999999999", "a pure number, such as '1'")},
+    {"1e999 m", "m", BEYOND("1e999 m", "a length", "'1 mm'")},
+    {"-1e400 mm", "m", BEYOND("-1e400 mm", "a length", "'1 mm'")},
+    {"1e-400 mm", "m", BEYOND("1e-400 mm", "a length", "'1 mm'")},
+    {"3e-310 m", "m", BEYOND("3e-310 m", "a length", "'1 mm'")},
+    {"1e308 km", "m", BEYOND("1e308 km", "a length", "'1 mm'")},
+    {"1e-300 nm", "m", BEYOND("1e-300 nm", "a length", "'1 mm'")},
+    {"0.00001e999999999999", "1", BEYOND("0.00001e999999999999", "a pure number", "'1'")},
     {"1 2 mm", "m",
      "found '1 2 mm', whose unit '2 mm' is unknown; expected a length, such as '1 mm'"},
     {"20 degC", "K",
