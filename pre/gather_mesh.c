@@ -16,11 +16,6 @@ struct laid {
     size_t *first, *count; /* (pile) */
 };
 
-static void drop_laid(struct laid *laid) {
-    kr_free(laid->first);
-    kr_free(laid->count);
-}
-
 /** The vertices of a cell of this kind; polygons counter-clockwise. `vertex` may be `node`. */
 static void lay_cell(const double *point, const struct kr_element *kind, const size_t *node, size_t *vertex) {
     size_t kept[KR_MOST_NODES];
@@ -292,8 +287,9 @@ struct kr_mesh *kr_gather_finish(struct kr_gather *gather) {
     unsigned char *is_inner = find_inner_points(gather, mesh->dim);
     struct laid cells = lay_cells(gather, mesh), facets = lay_facets(gather, mesh);
     lay_groups(gather, mesh, &cells, &facets);
-    drop_laid(&cells);
-    drop_laid(&facets);
+    kr_free(cells.first);
+    kr_free(facets.first);
+    kr_free(facets.count);
     drop_inner_points(is_inner, mesh);
     free_gather(gather);
     kr_mesh_resolve_points(mesh);
