@@ -44,7 +44,9 @@ Q        := $(if $(V),,@)
 
 WARNINGS := -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes -Wmissing-prototypes \
             -Wno-missing-field-initializers
-VERSION  := $(shell git describe --always --dirty --tags 2>/dev/null || echo unknown)
+# Results made by another version are out of date, so that tables written into cases/*/README.md must not make one.
+VERSION  := $(shell git describe --always --tags 2>/dev/null || echo unknown)$(shell \
+              git diff --quiet HEAD -- Makefile pre solver post 2>/dev/null; [ $$? -ne 1 ] || echo -dirty)
 # The bond loop is worth -O3, but not the minutes that the sanitizers make of it.
 KERNEL_FLAGS = $(if $(SANITIZE),-O1,-O3)
 ifdef SANITIZE

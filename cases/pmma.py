@@ -17,23 +17,11 @@ NOTCH = {"long": 2e-3, "short": 0.75e-3}
 END = {"long": "400 us", "short": "460 us"}
 
 
-def tip_speed(tips, low, high):
-    """Greatest smoothed speed over Rayleigh's of tips between two x, NaN where there are none."""
-    inside = (tips["x [m]"] >= low) & (tips["x [m]"] <= high)
-    speed = tips["speed_over_rayleigh"][inside]
-    return numpy.nanmax(speed) if numpy.isfinite(speed).any() else numpy.nan
-
-
 def mean_speed(tips, low, high):
     """Mean speed over Rayleigh's of the tips between two x."""
     inside = (tips["x [m]"] >= low) & (tips["x [m]"] <= high)
     speed = tips["speed_over_rayleigh"][inside]
     return numpy.nanmean(speed) if numpy.isfinite(speed).any() else numpy.nan
-
-
-def at_first_pore(tips):
-    """Speed over Rayleigh's within a diameter before the edge of the first pore."""
-    return tip_speed(tips, PITCH - 3 * RADIUS, PITCH - RADIUS)
 
 
 def valleys(tips):
@@ -59,6 +47,16 @@ def times_at(folder, places):
     order = numpy.argsort(time, kind="stable")  # nodes without damage have no time, and come last
     order = order[numpy.isfinite(time[order])]
     return numpy.append(time[order], numpy.nan)[numpy.searchsorted(numpy.maximum.accumulate(x[order]), places)]
+
+
+def at_first_pore(folder):
+    """Speed over Rayleigh's at the edge of the first pore: the mean over two horizons that end half a horizon before it.
+    A speed fitted to fewer and fewer places of the tip as they come to an end says less the nearer it is to the edge."""
+    with h5py.File(os.path.join(folder, "run.h5")) as file:
+        horizon = file.attrs["horizon"]
+    end = PITCH - RADIUS - horizon / 2
+    begins, ends = times_at(folder, [end - 2 * horizon, end])
+    return 2 * horizon / (ends - begins) / summary_of(os.path.join(folder, "summary.csv"))["rayleigh_speed"]
 
 
 def times_at_pores(folder):
@@ -157,7 +155,7 @@ def compare(name, first_pore):
         label = run(case, notch, grid)
         labels.append(label)
         tips = look(case, label)
-        speed = at_first_pore(tips)
+        speed = at_first_pore(case.path(label))
         test, words = first_pore[notch]
         case.row(f"{label}: speed over Rayleigh's at the first pore", speed,
                  verdict=bool(test(speed)), source=words)

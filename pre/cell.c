@@ -58,6 +58,26 @@ static double triple(const double *a, const double *b, const double *c) {
            a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
+static void away(const double *from, const double *to, double way[3]) {
+    for (int d = 0; d < 3; d++)
+        way[d] = to[d] - from[d];
+}
+
+double kr_cell_triangle(const double *a, const double *b, const double *c) {
+    double u[3], v[3];
+    away(a, b, u);
+    away(a, c, v);
+    return hypot(hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2]), u[0] * v[1] - u[1] * v[0]) / 2;
+}
+
+double kr_cell_tetrahedron(const double *a, const double *b, const double *c, const double *d) {
+    double u[3], v[3], w[3];
+    away(a, b, u);
+    away(a, c, v);
+    away(a, d, w);
+    return triple(u, v, w) / 6;
+}
+
 static void add_triangle(const double *a, const double *b, const double *c, double sum[4]) {
     double six = triple(a, b, c);
     sum[3] += six;
@@ -119,14 +139,7 @@ double kr_cell_solid(size_t n, const double *point, double centroid[3]) {
 double kr_cell_face(size_t n, const double *point, double middle[3]) {
     double area = 0;
     kr_solid_middle(n, point, middle);
-    for (size_t k = 0; k < n; k++) {
-        double a[3], b[3];
-        for (size_t d = 0; d < 3; d++) {
-            a[d] = point[3 * k + d] - middle[d];
-            b[d] = point[3 * (k + 1 < n ? k + 1 : 0) + d] - middle[d];
-        }
-        area += hypot(hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2]),
-                      a[0] * b[1] - a[1] * b[0]) / 2;
-    }
+    for (size_t k = 0; k < n; k++)
+        area += kr_cell_triangle(middle, point + 3 * k, point + 3 * (k + 1 < n ? k + 1 : 0));
     return area;
 }

@@ -35,6 +35,12 @@ int kr_cell_is_sound(size_t n, const double *point);
  */
 double kr_cell_solid(size_t n, const double *point, double centroid[3]);
 
+/** Area [m^2] of a triangle in space. */
+double kr_cell_triangle(const double *a, const double *b, const double *c);
+
+/** Volume [m^3] of a tetrahedron, positive if a, b, c run counter-clockwise seen from d. */
+double kr_cell_tetrahedron(const double *a, const double *b, const double *c, const double *d);
+
 /** Area [m^2] of a face by the rule above, and the point in its middle.
  *
  *  in   n, point  3, 4, 6 or 8 vertices in their order (n x 3) m; any other number: the mean

@@ -9,6 +9,7 @@
 #include "coarse.h"
 
 #include "base/memory.h"
+#include "cell.h"
 
 #include <math.h>
 #include <string.h>
@@ -35,16 +36,6 @@ static void normal_at(const struct kr_coarse *coarse, const double p[3], double 
     }
     for (int d = 0; d < 3 && length > 0; d++)
         normal[d] /= length;
-}
-
-static double area_of(const double *a, const double *b, const double *c) {
-    double u[3], v[3];
-    for (int d = 0; d < 3; d++) {
-        u[d] = b[d] - a[d];
-        v[d] = c[d] - a[d];
-    }
-    return hypot(hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2]),
-                 u[0] * v[1] - u[1] * v[0]) / 2;
 }
 
 /** Mean of the function at the middles of a facet's edges. */
@@ -79,7 +70,7 @@ void kr_coarse_even(const struct kr_coarse *coarse, struct kr_solid_region *r, c
         const size_t *v = r->triangle[t];
         if (label[t] != KR_COARSE_SURFACE)
             continue;
-        double a = area_of(r->point[v[0]], r->point[v[1]], r->point[v[2]]), gap = gap_of(coarse, r, v);
+        double a = kr_cell_triangle(r->point[v[0]], r->point[v[1]], r->point[v[2]]), gap = gap_of(coarse, r, v);
         for (int k = 0; k < 3; k++) {
             area[v[k]] += a;
             lost[v[k]] += a * gap;

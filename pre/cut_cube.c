@@ -5,30 +5,8 @@
 #include "cutting.h"
 
 #include "base/memory.h"
+#include "cell.h"
 #include "poly.h"
-
-#include <math.h>
-
-static double volume_of(const double *a, const double *b, const double *c, const double *d) {
-    double u[3], v[3], w[3];
-    for (int k = 0; k < 3; k++) {
-        u[k] = b[k] - a[k];
-        v[k] = c[k] - a[k];
-        w[k] = d[k] - a[k];
-    }
-    return (u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
-            u[2] * (v[0] * w[1] - v[1] * w[0])) / 6;
-}
-
-static double area_of(const double *a, const double *b, const double *c) {
-    double u[3], v[3];
-    for (int k = 0; k < 3; k++) {
-        u[k] = b[k] - a[k];
-        v[k] = c[k] - a[k];
-    }
-    return hypot(hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2]),
-                 u[0] * v[1] - u[1] * v[0]) / 2;
-}
 
 /** Points of the mesh for the vertices of what is left of a tetrahedron with these corners. */
 static void place_vertices(struct kr_cutting *cutting, const struct kr_poly *poly,
@@ -53,7 +31,7 @@ static void add_triangle(struct kr_cutting *cutting, struct kr_cut_cube *cube, c
     KR_GROW(cutting->triangle, cutting->n_triangles, cutting->triangles_room);
     cutting->triangle[cutting->n_triangles++] = (struct kr_cut_triangle){{p[0], p[1], p[2]}, label};
     if (label <= KR_CUT_SIDE)
-        cube->side[KR_CUT_SIDE - label] += area_of(x + 3 * p[0], x + 3 * p[1], x + 3 * p[2]);
+        cube->side[KR_CUT_SIDE - label] += kr_cell_triangle(x + 3 * p[0], x + 3 * p[1], x + 3 * p[2]);
 }
 
 static void add_pieces(struct kr_cutting *cutting, struct kr_cut_cube *cube, const struct kr_poly *poly,
@@ -72,7 +50,7 @@ static void add_pieces(struct kr_cutting *cutting, struct kr_cut_cube *cube, con
         size_t *t = cutting->tetrahedron[cutting->n_tetrahedra++];
         for (int c = 0; c < 4; c++)
             t[c] = point[pieces.tetrahedron[k][c]];
-        cube->volume += volume_of(x + 3 * t[0], x + 3 * t[1], x + 3 * t[2], x + 3 * t[3]);
+        cube->volume += kr_cell_tetrahedron(x + 3 * t[0], x + 3 * t[1], x + 3 * t[2], x + 3 * t[3]);
     }
 }
 

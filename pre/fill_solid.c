@@ -6,6 +6,7 @@
 #include "fill_solid.h"
 
 #include "base/memory.h"
+#include "cell.h"
 #include "face.h"
 
 #include <math.h>
@@ -15,25 +16,17 @@
  * crashes, and 10 (HXT) differs from run to run. So the second method leaves out what moves and swaps
  * cells afterwards (Mesh.Optimize). The largest length of an edge, in spacings, is that of which cells
  * have one cube in the mean. */
-const struct kr_solid_method kr_solid_methods[KR_SOLID_METHODS] = {{"gmsh's Delaunay", 1, 1}, {"gmsh's Delaunay, not optimized", 1, 0}};
-
-static double six_volumes(const double *a, const double *b, const double *c, const double *d) {
-    double u[3], v[3], w[3];
-    for (int k = 0; k < 3; k++) {
-        u[k] = b[k] - a[k];
-        v[k] = c[k] - a[k];
-        w[k] = d[k] - a[k];
-    }
-    return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
-           u[2] * (v[0] * w[1] - v[1] * w[0]);
-}
+const struct kr_solid_method kr_solid_methods[KR_SOLID_METHODS] = {
+    {"Delaunay", 1, 1},
+    {"Delaunay, not optimized", 1, 0},
+};
 
 double kr_solid_region_volume(const struct kr_solid_region *r) {
-    double six = 0;
+    double volume = 0;
     for (size_t t = 0; t < r->n_triangles; t++)
-        six += six_volumes(r->point[0], r->point[r->triangle[t][0]], r->point[r->triangle[t][1]],
+        volume += kr_cell_tetrahedron(r->point[0], r->point[r->triangle[t][0]], r->point[r->triangle[t][1]],
                            r->point[r->triangle[t][2]]);
-    return six / 6;
+    return volume;
 }
 
 /* ---- shells ---- */
@@ -62,7 +55,7 @@ static size_t shells_of(const struct kr_solid_region *r, size_t *shell) {
     }
     for (size_t t = 0; t < r->n_triangles; t++)
         volume[shell[r->triangle[t][0]]] +=
-            six_volumes(r->point[0], r->point[r->triangle[t][0]], r->point[r->triangle[t][1]],
+            kr_cell_tetrahedron(r->point[0], r->point[r->triangle[t][0]], r->point[r->triangle[t][1]],
                         r->point[r->triangle[t][2]]);
     for (size_t s = 0; s < count; s++)
         first = volume[s] > volume[first] ? s : first;
@@ -134,17 +127,17 @@ static char *volumes_fault(struct kr_solid_region *got) {
     double sum = 0, wanted = kr_solid_region_volume(got);
     for (size_t c = 0; c < got->n_cells; c++) {
         size_t *v = got->cell[c];
-        double six = six_volumes(got->point[v[0]], got->point[v[1]], got->point[v[2]], got->point[v[3]]);
-        if (six < 0) { /* gmsh does not always keep to its own order */
+        double volume = kr_cell_tetrahedron(got->point[v[0]], got->point[v[1]], got->point[v[2]], got->point[v[3]]);
+        if (volume < 0) { /* gmsh does not always keep to its own order */
             size_t kept = v[0];
             v[0] = v[1];
             v[1] = kept;
-            six = -six;
+            volume = -volume;
         }
-        if (!(six > 1e-9))
+        if (!(volume > 1e-10))
             return kr_text("a cell at (%g, %g, %g) is flat", got->point[v[0]][0], got->point[v[0]][1],
                            got->point[v[0]][2]);
-        sum += six / 6;
+        sum += volume;
     }
     if (!(fabs(sum - wanted) <= 1e-9 * wanted))
         return kr_text("the cells' volumes sum to %.12g instead of %.12g spacings cubed", sum, wanted);

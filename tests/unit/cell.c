@@ -119,6 +119,18 @@ static void folded_cells_are_unsound(void **unused) {
     assert_false(kr_cell_is_sound(3, flat));
 }
 
+/** A box of 2 x 3 x 6 far from the origin: its diagonals' triangle, and the corner cut off by them. */
+static void triangles_and_tetrahedra_in_space(void **unused) {
+    (void)unused;
+    const double o[] = {1e6, -2e6, 3e6}, x[] = {1e6 + 2, -2e6, 3e6}, y[] = {1e6, -2e6 + 3, 3e6};
+    const double z[] = {1e6, -2e6, 3e6 + 6};
+    kr_check_near(kr_cell_triangle(x, y, z), sqrt(3. * 3 * 6 * 6 + 2. * 2 * 6 * 6 + 2. * 2 * 3 * 3) / 2, 1e-14);
+    kr_check_near(kr_cell_triangle(x, z, y), kr_cell_triangle(x, y, z), 0);
+    kr_check_near(kr_cell_triangle(x, x, y), 0, 0);
+    kr_check_near(kr_cell_tetrahedron(o, x, y, z), 6, 0);
+    kr_check_near(kr_cell_tetrahedron(x, o, y, z), -6, 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(convex_polygons),
@@ -128,6 +140,7 @@ int main(void) {
         cmocka_unit_test(the_sign_of_the_area_tells_the_sense),
         cmocka_unit_test(a_flat_polygon_has_the_mean_of_its_vertices),
         cmocka_unit_test(folded_cells_are_unsound),
+        cmocka_unit_test(triangles_and_tetrahedra_in_space),
     };
     kr_run_tests(tests);
 }

@@ -88,6 +88,33 @@ static void crashes_are_told(void **unused) {
     kr_free(missing);
 }
 
+static void fill_from_the_third(void *path) {
+    struct kr_gmsh_region region = region_of_two();
+    struct kr_gmsh_options options = {path, 1, 2, KR_FILL_LINEAR};
+    kr_gmsh_fill(1, &region, &options);
+}
+
+/** Large regions begin with the third method: all four are tried, the first two last. */
+static void all_methods_are_tried_whichever_is_first(void **unused) {
+    (void)unused;
+    char *tried = kr_text("%s/tried", folder), *body = kr_text("read line; echo $line >> %s; exit 3", tried);
+    char *path = make_program("each", body), line[256];
+    kr_check_stops(fill_from_the_third, path, 5, "the last, frontal-Delaunay (6), blossom, failed");
+    static const char *const algorithm[] = {"9 recombination 0", "6 recombination 0", "9 recombination 1",
+                                            "6 recombination 1"};
+    FILE *file = fopen(tried, "r");
+    assert_non_null(file);
+    for (int k = 0; k < 4; k++) {
+        assert_non_null(fgets(line, sizeof line, file));
+        assert_non_null(strstr(line, algorithm[k]));
+    }
+    assert_null(fgets(line, sizeof line, file));
+    fclose(file);
+    kr_free(tried);
+    kr_free(body);
+    kr_free(path);
+}
+
 static void a_hanging_child_is_ended(void **unused) {
     (void)unused;
     /* The first method hangs for its two seconds, the next ones end at once. */
@@ -207,6 +234,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_good_reply_is_taken),
         cmocka_unit_test(crashes_are_told),
+        cmocka_unit_test(all_methods_are_tried_whichever_is_first),
         cmocka_unit_test(a_hanging_child_is_ended),
         cmocka_unit_test(a_waiting_child_is_left_alone),
         cmocka_unit_test(a_warning_is_a_failure_though_the_reply_is_good),
