@@ -18,7 +18,7 @@ struct kr_total kr_total_of(const struct kr_tree *tree) {
         total.length += branch->length;
         total.energy += branch->energy;
         time += branch->last_time - branch->first_time - branch->trapped;
-        if (isnan(total.top_speed) || branch->top_speed > total.top_speed) {
+        if (isnan(total.top_speed) || branch->top_speed - branch->top_error > total.top_speed - total.top_error) {
             total.top_speed = branch->top_speed;
             total.top_error = branch->top_error;
         }

@@ -142,8 +142,9 @@ static void place_leg(struct kr_tree *tree, size_t c) {
         begin_branch(tree, c, leg->parent == NONE ? 0 : tree->branch_of_leg[leg->parent]);
 }
 
-/** The greatest speed of a fit that has its whole window on the part of a leg that the tip ran alone,
- *  or of the middle of a part shorter than that. */
+/** The top speed: of the fits that have their whole window on the part of a leg that the tip ran alone, or in the middle
+ *  of a part shorter than that, the one whose speed less its standard error is greatest. The greatest speed itself would
+ *  be that of the worst fit. */
 static void find_top(struct kr_branch *branch, const struct kr_path *path, double window) {
     size_t first = 0, last = path->count;
     double rim;
@@ -157,7 +158,8 @@ static void find_top(struct kr_branch *branch, const struct kr_path *path, doubl
     for (size_t m = first; m < last; m++) {
         const struct kr_move *move = path->move + m;
         if (isnan(move->speed) || move->s < path->move[first].s + rim ||
-            move->s > path->move[last - 1].s - rim || branch->top_speed >= move->speed)
+            move->s > path->move[last - 1].s - rim ||
+            move->speed - move->error <= branch->top_speed - branch->top_error)
             continue; /* top_speed is not a number before the first */
         branch->top_speed = move->speed;
         branch->top_error = move->error;

@@ -19,7 +19,7 @@ struct kr_branch {
     double first_time, last_time; /* s */
     double from[2], to[2];    /* m */
     double length;            /* m, holes left out */
-    double mean_speed, top_speed, top_error; /* m/s; NaN: too short */
+    double mean_speed, top_speed, top_error; /* m/s, one standard error; NaN: too short */
     double trapped;           /* s in holes */
     double energy;            /* J/m */
     size_t n_holes, holes_room;

@@ -389,6 +389,39 @@ static void tree_hole(void **state) {
     }
 }
 
+/** Shaken times, and a crack beside the way: fits that see one side only are the fastest here, and the least certain. The
+ *  top speed is that of which a standard error takes least away. */
+static void tree_top_speed(void **state) {
+    const struct drawn_crack crack = {2, {{2e-3, 10e-3}, {30e-3, 10e-3}}, 9e-6, 500, 0};
+    const struct drawn_crack beside = {2, {{14e-3, 10.5e-3}, {16e-3, 10.5e-3}}, 1e-6, 500, 0};
+    (void)state;
+    for (int kind = 0; kind < KINDS; kind++) {
+        struct kr_record *r = plate(kinds[kind], 0, 0, 0);
+        drawn_add(r, &notch);
+        drawn_add(r, &crack);
+        drawn_add(r, &beside);
+        for (size_t i = 0; i < r->n; i++)
+            if (isfinite(r->damage_time[i]) && r->damage_time[i] > 0)
+                r->damage_time[i] += 5e-7 * rand() / RAND_MAX;
+        r->steps = 100000;
+        struct kr_tree *tree = grow(r, kinds[kind]);
+        const struct kr_branch *branch = &tree->branch[1];
+        const struct kr_path *path = &tree->legs.item[branch->leg[0]].path;
+        const double window = kr_path_window(r), end = path->move[path->count - 1].s - window;
+        int faster = 0;
+        assert_int_equal(tree->count, 2);
+        for (size_t m = 0; m < path->count; m++)
+            if (!isnan(path->move[m].speed) && path->move[m].s > window + 1e-3 && path->move[m].s < end) {
+                assert_true(path->move[m].speed - path->move[m].error <= branch->top_speed - branch->top_error);
+                faster += path->move[m].speed > branch->top_speed;
+            }
+        assert_true(faster > 0);
+        kr_check_near(branch->top_speed, 500, 2 * branch->top_error);
+        kr_check_near(branch->top_error, 15, 3);
+        done(r, tree);
+    }
+}
+
 /** The last ligament breaks at once, before a hole and between two cracks: no tip was fast, and speeds
  *  are right within three of the errors that they state. */
 static void tree_snap(void **state) {
@@ -618,7 +651,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(tree_straight), TEST(tree_curved), TEST(tree_accelerating), TEST(tree_one_branch),
         TEST(tree_two_branches_at_once), TEST(tree_merge), TEST(tree_two_cracks_meet),
-        TEST(tree_arrest), TEST(tree_hole), TEST(tree_snap), TEST(tree_loop), TEST(tree_noise),
+        TEST(tree_arrest), TEST(tree_hole), TEST(tree_snap), TEST(tree_top_speed), TEST(tree_loop),
+        TEST(tree_noise),
         TEST(tree_damage_ahead), TEST(tree_born_inside), TEST(tree_nothing),
         TEST(tree_short_growth), TEST(tree_energy),
     };
