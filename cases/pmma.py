@@ -76,6 +76,23 @@ def trapped(folder):
     return share[numpy.isfinite(share)]
 
 
+def dispersed(folder):
+    """How many nodes with a broken bond lie more than a horizon away from every cracked node (damage above 0.35 at any
+    time, as the paper's appendix 2 has it), at the end."""
+    last = sorted(name for name in os.listdir(os.path.join(folder, "run")) if name[0] == "0")[-1]
+    with h5py.File(os.path.join(folder, "run", last)) as file:
+        damaged = file["Damage"][:] > 0
+    with h5py.File(os.path.join(folder, "run.h5")) as file:
+        place, horizon = file["nodes/position"][:, :2], file.attrs["horizon"]
+        cracked = numpy.isfinite(file["crack/Damage_Time"][:])
+    away = 0
+    crack, rest = place[cracked], place[damaged & ~cracked]
+    for part in numpy.array_split(rest, len(rest) // 200 + 1):
+        apart = numpy.hypot(*(part[:, None, :] - crack[None, :, :]).T)
+        away += int((apart.min(axis=0) > horizon).sum())
+    return away
+
+
 def summary_of(path):
     table = table_of(path)
     return dict(zip(table["name"], table["value"]))
@@ -100,20 +117,23 @@ def look(case, label):
     return tips
 
 
-def run(case, notch, grid=None, deck="case.yaml", owner=""):
-    """Run a deck with this notch on this grid (None: the deck's), as a run of the case `owner`."""
-    label = owner + (notch if grid is None else f"{notch}-{grid}")
+def run(case, notch, grid=None, deck="case.yaml", owner="", padding=None):
+    """Run a deck with this notch on this grid (None: the deck's), as a run of the case `owner`; with this padding [mm]
+    around pores (None: the deck's)."""
+    label = owner + "-".join([notch] + [str(word) for word in (grid, padding) if word])
     settings = {"cracks.precracks.0.to": f"[{1e3 * NOTCH[notch]} mm, 12.5 mm]",
                 "solver.end_time": END[notch]}
     if grid:
         settings["mesh.grid"] = grid
+    if padding:
+        settings["mesh.padding"] = f"{padding} mm"
     if grid == "voronoi":
         settings["nodes.partial_volume"] = "exact-centroid"
     case.kirsch(label, settings, until="track", deck=deck)
     return label
 
 
-def draw_path(case, label, axis):
+def draw_path(case, label, axis, plate):
     """The tips of each branch, coloured by their speed over Rayleigh's, and the pores."""
     tips = table_of(case.path(label, "tips.csv"))
     for branch in sorted(set(tips["branch"])):
@@ -123,20 +143,21 @@ def draw_path(case, label, axis):
         lines = axis.add_collection(LineCollection(pieces, cmap="viridis", linewidths=1.6))
         lines.set(array=tips["speed_over_rayleigh"][of][1:], clim=(0, 1))
     for k in range(1, ROWS + 1):
-        for offset in OFFSETS[case.name]:
+        for offset in OFFSETS[plate]:
             centre = 1e3 * k * PITCH, 1e3 * (MIDDLE + offset * PITCH)
             axis.add_patch(pyplot.Circle(centre, 1e3 * RADIUS, fill=False, lw=0.6))
     axis.set(xlim=(0, 50), ylim=(5, 20), aspect="equal", title=label)
     return lines
 
 
-def draw(case, labels):
-    """All runs of a case in one picture."""
-    figure, axes = pyplot.subplots(2, 2, figsize=(11, 4.6), layout="constrained", sharex=True, sharey=True)
+def draw(case, labels, plate):
+    """All runs of a case on one plate (a key of OFFSETS) in one picture."""
+    rows = (len(labels) + 1) // 2
+    figure, axes = pyplot.subplots(rows, 2, figsize=(11, 2.3 * rows), layout="constrained", sharex=True, sharey=True)
     for axis in axes.flat[len(labels):]:
         axis.set_visible(False)
     for axis, label in zip(axes.flat, labels):
-        lines = draw_path(case, label, axis)
+        lines = draw_path(case, label, axis, plate)
     figure.colorbar(lines, ax=axes, label="crack speed / Rayleigh speed")
     figure.supxlabel("x [mm]")
     figure.supylabel("y [mm]")
@@ -168,5 +189,5 @@ def compare(name, first_pore):
             case.row(f"{label}: time in a pore over that for as long a way before it, median of {len(share)}",
                      float(numpy.median(share)), reference=1.0, tolerance=0.25,
                      source="paper, Fig. 16: the same; read off a curve")
-    draw(case, labels)
+    draw(case, labels, name)
     case.finish()
