@@ -153,7 +153,8 @@ def draw_path(case, label, axis, plate):
 def draw(case, labels, plate):
     """All runs of a case on one plate (a key of OFFSETS) in one picture."""
     rows = (len(labels) + 1) // 2
-    figure, axes = pyplot.subplots(rows, 2, figsize=(11, 2.3 * rows), layout="constrained", sharex=True, sharey=True)
+    figure, axes = pyplot.subplots(rows, 2, figsize=(11, 0.8 + 1.9 * rows), layout="constrained",
+                                  sharex=True, sharey=True)
     for axis in axes.flat[len(labels):]:
         axis.set_visible(False)
     for axis, label in zip(axes.flat, labels):
