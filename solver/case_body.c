@@ -166,11 +166,11 @@ const struct kr_deck_key kr_case_mesh_keys[] = {
      .text = "A mesh from elsewhere, instead of one by kirsch-mesh; a path from the deck's folder. What "
              "can be read: [formats.md](formats.md#meshes-from-elsewhere)."},
     {"grid", KR_DECK_CHOICE, AT(grid), .words = KR_GRID_WORDS,
-     .fallback = "near-boundary",
-     .text = "`near-boundary`: a square lattice, cut out around each hole and filled there by gmsh "
-             "with cells that follow the rim; `uniform`: the lattice alone, with jagged holes; "
-             "`free`: gmsh everywhere; `voronoi`: the lattice, near edges Voronoi cells that the "
-             "edge cuts ([grids.md](grids.md))."},
+     .fallback = "voronoi",
+     .text = "`voronoi`: a square lattice, near edges Voronoi cells that the edge cuts exactly; "
+             "`near-boundary`: the plates paper's, the lattice cut out around each hole and filled "
+             "there by gmsh with cells that follow the rim; `uniform`: the lattice alone, with "
+             "jagged holes; `free`: gmsh everywhere ([grids.md](grids.md))."},
     {"spacing", NUMBER_OF(AT(spacing), "m"), POSITIVE, .text = "Spacing of the lattice."},
     {"padding", NUMBER_OF(AT(padding), "m"), .fallback = "", NOT_NEGATIVE,
      .text = "From the rim of a hole to the edge of the box that is meshed around it; not given "

@@ -9,11 +9,12 @@ prefix=memory
 write_large() { # plate or solid, dynamic or static
     if [ "$1" = solid ]; then
         shape='{width: 10 mm, height: 8 mm, depth: 6 mm, voids: [{centre: [5 mm, 4 mm, 3 mm], radius: 1.5 mm}]}'
-        grid='{spacing: 0.25 mm}' horizon=0.75 model=solid up='[free, 4 MPa, free]' down='[free, -4 MPa, free]'
+        grid='{grid: near-boundary, spacing: 0.25 mm}' horizon=0.75 model=solid up='[free, 4 MPa, free]' down='[free, -4 MPa, free]'
         hold='[0 mm, 0 mm, 0 mm]' pull='[0 mm, 1 um, 0 mm]'
     else
         shape='{width: 60 mm, height: 40 mm, holes: [{centre: [20 mm, 20 mm], radius: 5 mm}]}'
         grid="{grid: $1, spacing: 0.2 mm}" horizon=0.6
+        [ "$1" = voronoi ] && grid="{grid: voronoi, spacing: 0.1 mm}" # the least a node of all grids
         [ "$1" = free ] && grid="{grid: free, spacing: 0.5 mm}" horizon=1.5 # all of it by gmsh, whose process is the larger one
         model=plane-stress up='[free, 4 MPa]' down='[free, -4 MPa]'
         hold='[0 mm, 0 mm]' pull='[0 mm, 1 um]'
@@ -106,6 +107,7 @@ check estimate_at_rest estimate near-boundary static
 check estimate_of_a_block estimate solid dynamic
 check estimate_of_a_block_at_rest estimate solid static
 check estimate_of_a_mesh estimate near-boundary dynamic mesh
+check estimate_of_a_mesh_by_voronoi estimate voronoi dynamic mesh
 check estimate_of_a_mesh_of_a_block estimate solid dynamic mesh
 check estimate_of_a_mesh_by_gmsh estimate free dynamic mesh
 check too_large_is_refused too_large

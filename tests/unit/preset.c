@@ -59,6 +59,7 @@ static void test_without_preset_defaults_stay(void **state) {
     struct kr_case c;
     (void)state;
     read_case("nodes: {horizon: 0.4 mm}\n", 0, NULL, &c);
+    assert_int_equal(c.grid, KR_GRID_VORONOI); /* the best of docs/corrections.md */
     assert_int_not_equal(c.partial_volume, KR_PARTIAL_VOLUME_HHB_ONE_SIDED);
     assert_int_equal(c.surface_deformation, KR_MEAN_OVER_AXES);
 }
