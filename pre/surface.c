@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Surface correction by the energy method. The energies come from the solver's own loop, so that the
- * factors fit just the weights and the geometry that the solver will use.
+ * Surface correction by the energy method. The energies come from the solver's own loop, so that
+ * the factors fit just the weights and the geometry that the solver will use.
  *
- * The paper's iteration lambda_i <- lambda_i W0/W_i ends where W_i = W0 in all nodes. As W is linear
- * in lambda, and V_i dW_i/dlambda_j symmetric, that is a linear system with a positive matrix:
- * conjugate gradients reach the same factors in some 20 iterations instead of some 800.
+ * The paper's iteration lambda_i <- lambda_i W0/W_i ends where W_i = W0 in all nodes. As W is
+ * linear in lambda, and V_i dW_i/dlambda_j symmetric, that is a linear system with a positive
+ * matrix: conjugate gradients reach the same factors in some 20 iterations instead of some 800.
  */
 #include "surface.h"
 
@@ -21,8 +21,8 @@
 enum { MOST_ITERATIONS = 5000, FINE = 25 };
 static const double STRAIN = 1e-4, TOLERANCE = 1e-7;
 
-/* Strain along d of a deformation whose axis is `axis`. Across a uniaxial stress the model shrinks by 1/4
- * in a solid, by 1/3 in plane stress (nu) and in plane strain (nu/(1 - nu)). */
+/* Strain along d of a deformation whose axis is `axis`. Across a uniaxial stress the model shrinks
+ * by 1/4 in a solid, by 1/3 in plane stress (nu) and in plane strain (nu/(1 - nu)). */
 static double strain_along(int dim, int deformation, int axis, int d) {
     if (d >= dim)
         return 0;
@@ -33,9 +33,9 @@ static double strain_along(int dim, int deformation, int axis, int d) {
 
 /* Strains of the deformations along the axes, and how many there are to take the mean over. */
 static int strains_of(int dim, int deformation, double strain[3][3]) {
-    static const int axis_of[] = {[KR_UNIAXIAL_Y] = 1, [KR_UNIAXIAL_X] = 0, [KR_UNIAXIAL_Z] = 2,
-                                  [KR_STRESS_X] = 0,   [KR_STRESS_Y] = 1,   [KR_STRESS_Z] = 2,
-                                  [KR_STRESS_OVER_AXES] = 0};
+    static const int axis_of[] = {
+        [KR_UNIAXIAL_Y] = 1, [KR_UNIAXIAL_X] = 0, [KR_UNIAXIAL_Z] = 2,      [KR_STRESS_X] = 0,
+        [KR_STRESS_Y] = 1,   [KR_STRESS_Z] = 2,   [KR_STRESS_OVER_AXES] = 0};
     int all = deformation == KR_MEAN_OVER_AXES || deformation == KR_STRESS_OVER_AXES;
     int count = all ? dim : 1;
     for (int k = 0; k < count; k++)
@@ -52,7 +52,8 @@ static double bond_energy(const struct kr_material *m, const double xi[3], const
         square += xi[d] * xi[d];
     }
     double e = q / square;
-    return kr_material_micromodulus(m, sqrt(square)) * sqrt(square) * m->law->energy(e / (1 + sqrt(1 + e)));
+    return kr_material_micromodulus(m, sqrt(square)) * sqrt(square) *
+           m->law->energy(e / (1 + sqrt(1 + e)));
 }
 
 /* What one bond of the fine lattice holds, its volume not counted: the mean over the strains. */
@@ -79,7 +80,8 @@ double kr_surface_full_sum(const struct kr_material *m, int dim, int partial_vol
         int a = k / (side * depth) - FINE - 1, b = k / depth % side - FINE - 1;
         int c = dim == 3 ? k % depth - FINE - 1 : 0;
         const double xi[3] = {a * spacing, b * spacing, c * spacing};
-        double phi = a || b || c ? kr_weight_lattice(partial_volume, dim, xi, m->horizon, spacing) : 0;
+        double phi =
+            a || b || c ? kr_weight_lattice(partial_volume, dim, xi, m->horizon, spacing) : 0;
         if (phi > 0)
             sum += phi * term(m, xi, context) * pow(spacing, dim);
     }
@@ -133,16 +135,21 @@ static double dot(size_t n, const double *a, const double *b) {
     return kr_body_sum(n, product, &d);
 }
 
-/* Largest |W_i/W0 - 1|, from the residual r_i = V_i (W0 - W_i). */
-static double worst_of(const struct problem *p, const double *residual, double reference) {
-    double worst = 0;
-    for (size_t i = 0; i < p->body->n; i++) {
-        double off = fabs(residual[i] / (p->body->bonds->volume[i] * reference));
-        if (isnan(off)) /* fmax would pass over it */
-            return INFINITY;
-        worst = fmax(worst, off);
-    }
-    return worst;
+/* Keep the largest |W_i/W0 - 1| in the report, and where it last was a number. */
+static void keep_worst(struct kr_surface_report *report, size_t i, double off) {
+    if (fabs(off) <= report->residual)
+        return;
+    report->residual = isnan(off) ? INFINITY : fabs(off);
+    if (isfinite(off))
+        report->worst_at = i;
+}
+
+/* From the residual r_i = V_i (W0 - W_i). */
+static void find_worst(const struct problem *p, const double *residual,
+                       struct kr_surface_report *report) {
+    report->residual = 0;
+    for (size_t i = 0; i < p->body->n; i++)
+        keep_worst(report, i, residual[i] / (p->body->bonds->volume[i] * report->reference));
 }
 
 /* Conjugate gradients with the diagonal as preconditioner. */
@@ -155,8 +162,11 @@ static void solve(struct problem *p, double *lambda, struct kr_surface_report *r
         p->diagonal[i] = 0.5 * image[i];
         residual[i] = p->body->bonds->volume[i] * report->reference - image[i];
     }
-    while ((report->residual = worst_of(p, residual, report->reference)) > TOLERANCE &&
-           isfinite(report->residual) && report->iterations < MOST_ITERATIONS) {
+    for (;; report->iterations++) {
+        find_worst(p, residual, report);
+        if (!(report->residual > TOLERANCE) || !isfinite(report->residual) ||
+            report->iterations == MOST_ITERATIONS)
+            break;
         kr_progress_note(&p->progress, "iteration %d, off by %.1e", report->iterations,
                          report->residual);
         for (size_t i = 0; i < n; i++)
@@ -171,7 +181,6 @@ static void solve(struct problem *p, double *lambda, struct kr_surface_report *r
             lambda[i] += length * search[i];
             residual[i] -= length * image[i];
         }
-        report->iterations++;
     }
     kr_free(residual);
     kr_free(search);
@@ -188,8 +197,7 @@ static void repeat(struct problem *p, double *lambda, struct kr_surface_report *
         report->residual = 0;
         apply(p, lambda, image);
         for (size_t i = 0; i < n; i++)
-            report->residual =
-                fmax(report->residual, fabs(image[i] / (volume[i] * report->reference) - 1));
+            keep_worst(report, i, image[i] / (volume[i] * report->reference) - 1);
         if (!(report->residual > TOLERANCE) || report->iterations == MOST_ITERATIONS)
             break;
         kr_progress_note(&p->progress, "iteration %d, off by %.1e", report->iterations,
@@ -215,6 +223,12 @@ static double height_of(const struct kr_bonds *b, size_t i) {
     return b->dim == 3 ? b->x[2][i] : 0;
 }
 
+/* Against both refusals. */
+#define CURE                                                                                       \
+    "Take away a piece of few nodes, make a wall a few spacings thick, or take "                   \
+    "nodes.surface_deformation: "                                                                  \
+    "isotropic or nodes.surface_correction: force-density"
+
 /* A node's factor may be negative, but no bond's mean of two: such a bond would push apart what it
  * holds. Only nodes with a factor below zero can have one. */
 static void refuse_pushing(const struct kr_bonds *b) {
@@ -227,8 +241,8 @@ static void refuse_pushing(const struct kr_bonds *b) {
             if (bond.i == i && b->factor[i] + b->factor[bond.j] <= 0)
                 kr_stop(KR_EXIT_NUMBERS,
                         "the surface factors %.3g and %.3g of the nodes at (%g, %g, %g) and (%g, "
-                        "%g, %g) m make their bond push: no positive factors give this place its energy. Take "
-                        "nodes.surface_deformation: mean-over-axes or isotropic, or a finer spacing",
+                        "%g, %g) m make their bond push: no positive factors give this place its "
+                        "energy. " CURE,
                         b->factor[i], b->factor[bond.j], b->x[0][i], b->x[1][i], height_of(b, i),
                         b->x[0][bond.j], b->x[1][bond.j], height_of(b, bond.j));
     }
@@ -237,8 +251,8 @@ static void refuse_pushing(const struct kr_bonds *b) {
 struct kr_surface_report kr_surface_correct(struct kr_nodes *nodes,
                                             const struct kr_material *material, int partial_volume,
                                             int deformation) {
-    struct kr_surface_report report = {.reference = kr_surface_reference(
-                                           material, nodes->dim, partial_volume, deformation)};
+    struct kr_surface_report report = {
+        .reference = kr_surface_reference(material, nodes->dim, partial_volume, deformation)};
     struct kr_material whole = *material;
     whole.critical_stretch = INFINITY;
     kr_surface_clear(nodes);
@@ -253,9 +267,11 @@ struct kr_surface_report kr_surface_correct(struct kr_nodes *nodes,
     kr_progress_wipe(&problem.progress);
     if (!(report.residual <= TOLERANCE))
         kr_stop(KR_EXIT_NUMBERS,
-                "the surface factors did not converge: off by %.2g after %d iterations; look for "
-                "nodes with few neighbours, or take surface_correction: none",
-                report.residual, report.iterations);
+                "the surface factors did not converge: off by %.2g after %d iterations, most at "
+                "the node at (%g, %g, "
+                "%g) m. Has it few neighbours, on a chip or a thin wall? " CURE,
+                report.residual, report.iterations, bonds->x[0][report.worst_at],
+                bonds->x[1][report.worst_at], height_of(bonds, report.worst_at));
     kr_surface_extremes(nodes, &report);
     for (size_t i = 0; i < nodes->n; i++)
         bonds->factor[i] = nodes->factor[i];

@@ -14,6 +14,7 @@ struct kr_surface_report {
     double least, most;    /* of the factors */
     size_t least_at, most_at; /* their nodes */
     double residual;       /* largest |W_i/W0 - 1| after the last iteration */
+    size_t worst_at;       /* its node */
 };
 
 /** Correct by any method; theory.md (11), (11a), (11b).

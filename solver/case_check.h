@@ -31,6 +31,9 @@ void kr_case_check_material(struct kr_deck *deck, const struct kr_case *c);
 /** Outline and holes. */
 void kr_case_check_geometry(struct kr_deck *deck, const struct kr_case *c);
 
+/** A polygon's corners, pairs of x and y: three or more, in turn; whether they are sound. */
+int kr_case_check_corners(struct kr_deck *deck, const struct kr_deck_list *points);
+
 /** Depth, voids and the body of an STL file. */
 void kr_case_check_solid(struct kr_deck *deck, const struct kr_case *c);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Checks of outline and holes. What only the exact curves can tell (an edge that crosses
- * itself, a rounding that does not fit) kirsch-mesh finds out.
+ * Checks of outline and holes. What only the exact curves can tell (a rounding that does not fit)
+ * kirsch-mesh finds out.
  */
 #include "base/memory.h"
 #include "case_check.h"
@@ -44,14 +44,19 @@ struct part {
     size_t offset;
 };
 
-#define PART(type, field, example_) {#field, example_, offsetof(struct type, field)}
+#define PART(type, field, example_)                                                                \
+    { #field, example_, offsetof(struct type, field) }
 enum { HOLE_PARTS = 9, OUTLINE_PARTS = 8 };
 static const struct part hole_part[HOLE_PARTS] = {
-    PART(kr_case_hole, centre, "[10 mm, 5 mm]"), PART(kr_case_hole, radius, "2 mm"),
-    PART(kr_case_hole, radii, "[2 mm, 1 mm]"),   PART(kr_case_hole, size, "[2 mm, 1 mm]"),
-    PART(kr_case_hole, length, "4 mm"),          PART(kr_case_hole, width, "1 mm"),
+    PART(kr_case_hole, centre, "[10 mm, 5 mm]"),
+    PART(kr_case_hole, radius, "2 mm"),
+    PART(kr_case_hole, radii, "[2 mm, 1 mm]"),
+    PART(kr_case_hole, size, "[2 mm, 1 mm]"),
+    PART(kr_case_hole, length, "4 mm"),
+    PART(kr_case_hole, width, "1 mm"),
     PART(kr_case_hole, points, "[[0 mm, 0 mm], [2 mm, 0 mm], [1 mm, 2 mm]]"),
-    PART(kr_case_hole, corner_radius, "0.5 mm"), PART(kr_case_hole, angle, "30 deg"),
+    PART(kr_case_hole, corner_radius, "0.5 mm"),
+    PART(kr_case_hole, angle, "30 deg"),
 };
 static const struct part outline_part[OUTLINE_PARTS] = {
     PART(kr_case_outline, centre, "[10 mm, 10 mm]"),
@@ -98,12 +103,6 @@ static int has_parts(const struct kr_deck *deck, const struct kr_case_hole *hole
     return kr_deck_given(deck, &hole->shape) || !kr_deck_faults(deck);
 }
 
-static int check_points(struct kr_deck *deck, const struct kr_deck_list *points) {
-    if (points->given && points->count < 6)
-        kr_deck_fault(deck, points, "found %zu corners, expected three or more", points->count / 2);
-    return !points->given || points->count >= 6;
-}
-
 /* ---- the checks ---- */
 
 /* Distance from the plate's frame; 0 within it. */
@@ -137,7 +136,7 @@ static void check_holes(struct kr_deck *deck, const struct kr_case *c) {
         kr_case_word(KR_HOLE_WORDS, holes[i].shape, word);
         if (holes[i].shape >= 0 && has_parts(deck, &holes[i]) &&
             check_parts(deck, &holes[i], HOLE_PARTS, hole_part, hole_rules[holes[i].shape], word) &&
-            check_points(deck, &holes[i].points))
+            kr_case_check_corners(deck, &holes[i].points))
             check_place(deck, c, &holes[i]);
     }
 }
@@ -194,12 +193,13 @@ static void check_shape(struct kr_deck *deck, const struct kr_case *c,
     kr_case_word(KR_OUTLINE_WORDS, o->shape, word);
     if (o->shape < 0 ||
         !check_parts(deck, o, OUTLINE_PARTS, outline_part, outline_rules[o->shape], word) ||
-        !check_points(deck, &o->points) || !(c->width > 0) || !(c->height > 0))
+        !kr_case_check_corners(deck, &o->points) || !(c->width > 0) || !(c->height > 0))
         return;
     if (o->shape == KR_OUTLINE_RECTANGLE && !kr_deck_given(deck, o->size) &&
         (kr_deck_given(deck, o->centre) || o->angle != 0))
-        kr_deck_fault(deck, o, "a rectangle of all of width by height has no centre and no angle; "
-                               "give its size, too");
+        kr_deck_fault(deck, o,
+                      "a rectangle of all of width by height has no centre and no angle; "
+                      "give its size, too");
     if (o->operation == KR_UNION)
         check_corners(deck, c, o);
     if (o->radius > 0)
@@ -225,8 +225,9 @@ static void check_outline(struct kr_deck *deck, const struct kr_case *c) {
     for (size_t k = 0; k < OUTLINE_PARTS; k++)
         if (kr_deck_given(deck, (const char *)o + outline_part[k].offset) ||
             kr_deck_given(deck, &o->shape)) {
-            kr_deck_fault(deck, &o->parts, "an outline of parts has no shape of its own; make it "
-                                           "the first part");
+            kr_deck_fault(deck, &o->parts,
+                          "an outline of parts has no shape of its own; make it "
+                          "the first part");
             break;
         }
     if (!o->parts.count)

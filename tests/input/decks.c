@@ -337,6 +337,22 @@ static const struct row {
      "case.yaml:6:17: geometry.holes.0.centre: the hole lies outside the plate of 0.05 m x 0.025 "
      "m, 0.001 m from it\n"
      "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_polygon_whose_sides_cross", "radius: 2 mm",
+     "shape: polygon, points: [[0 mm, 0 mm], [2 mm, 2 mm], [2 mm, 0 mm], [0 mm, 2.5 mm]]", NULL, NULL,
+     "case.yaml:6:88: geometry.holes.0.points.2.0: the side from here to the next corner meets the one behind "
+     "corner 0, expected corners in turn around the shape, the first is 0\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_polygon_that_touches_itself", "radius: 2 mm",
+     "shape: polygon, points: [[0 mm, 0 mm], [2 mm, 0 mm], [2 mm, 2 mm], [1 mm, 0 mm], [0 mm, 2 mm]]", NULL,
+     NULL,
+     "case.yaml:6:88: geometry.holes.0.points.2.0: the side from here to the next corner meets the one behind "
+     "corner 0, expected corners in turn around the shape, the first is 0\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
+    {"deck_polygon_with_a_corner_twice", "radius: 2 mm",
+     "shape: polygon, points: [[0 mm, 0 mm], [2 mm, 0 mm], [1 mm, 2 mm], [0 mm, 0 mm]]", NULL, NULL,
+     "case.yaml:6:102: geometry.holes.0.points.3.0: found corner 0 again, expected another; the shape closes by "
+     "itself\n"
+     "kirsch: 1 fault in case.yaml; nothing was done\n"},
     {"deck_hole_larger_than_the_plate", "radius: 2 mm", "radius: 26 mm", NULL, NULL,
      "case.yaml:6:42: geometry.holes.0.radius: the hole's diameter of 0.052 m is more than the "
      "plate's longer side\n"
