@@ -8,6 +8,7 @@
  */
 #include "base/error.h"
 #include "base/memory.h"
+#include "fill.h"
 #include "mesh.h"
 #include "plate.h"
 #include "pores.h"
@@ -64,7 +65,7 @@ static void count(const struct kr_mesh *mesh, const struct kr_plate *plate,
     all->longest = fmax(all->longest, report->seconds);
     all->regions += report->n_regions;
     for (size_t r = 0; r < report->n_regions; r++)
-        all->retried += strcmp(report->region[r].method, report->region[0].method) != 0;
+        all->retried += strcmp(report->region[r].method, kr_fill_methods[0].words) != 0;
 }
 
 static void mesh_field(int grid, int64_t seed, int64_t pores, double spacing,
