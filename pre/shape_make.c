@@ -24,8 +24,8 @@ static void add_arc(struct kr_curve *curve, const double centre[2], const double
         piece.a[d] = a[d];
         piece.b[d] = b[d];
         piece.from[d] = centre[d] + a[d];
-        piece.to[d] =
-            angle == 2 * M_PI ? piece.from[d] : centre[d] + a[d] * cos(angle) + b[d] * sin(angle);
+        piece.to[d] = angle == 2 * M_PI ? piece.from[d]
+                                        : centre[d] + a[d] * cos(angle) + b[d] * sin(angle);
     }
     curve->piece = kr_realloc(curve->piece, curve->n + 1, sizeof *curve->piece);
     curve->piece[curve->n++] = piece;
@@ -61,8 +61,7 @@ static struct corner corner_of(size_t n, const double *point, size_t k, double r
     struct corner c = {.at = point + 2 * k};
     unit_along(point + 2 * ((k + n - 1) % n), c.at, c.in);
     unit_along(c.at, point + 2 * ((k + 1) % n), c.out);
-    c.turn =
-        atan2(c.in[0] * c.out[1] - c.in[1] * c.out[0], c.in[0] * c.out[0] + c.in[1] * c.out[1]);
+    c.turn = atan2(c.in[0] * c.out[1] - c.in[1] * c.out[0], c.in[0] * c.out[0] + c.in[1] * c.out[1]);
     c.taken = radius * tan(fabs(c.turn) / 2);
     return c;
 }
@@ -85,8 +84,8 @@ static void add_polygon(struct kr_curve *curve, size_t n, const double *point, d
         struct corner next = corner_of(n, point, (k + 1) % n, radius);
         double side[2], length = unit_along(here.at, next.at, side);
         if (!(length > 0))
-            kr_stop(KR_EXIT_INPUT, "%s: two corners in a row stand at (%g, %g) m", name, here.at[0],
-                    here.at[1]);
+            kr_stop(KR_EXIT_INPUT, "%s: two corners in a row stand at (%g, %g) m", name,
+                    here.at[0], here.at[1]);
         double straight = length - here.taken - next.taken;
         if (!(straight >= -1e-9 * length))
             kr_stop(KR_EXIT_INPUT,
@@ -96,10 +95,10 @@ static void add_polygon(struct kr_curve *curve, size_t n, const double *point, d
         if (radius > 0 && here.turn != 0)
             add_rounding(curve, &here, radius);
         if (straight > 1e-9 * length)
-            add_line(
-                curve,
-                (double[]){here.at[0] + here.taken * side[0], here.at[1] + here.taken * side[1]},
-                (double[]){next.at[0] - next.taken * side[0], next.at[1] - next.taken * side[1]});
+            add_line(curve,
+                     (double[]){here.at[0] + here.taken * side[0], here.at[1] + here.taken * side[1]},
+                     (double[]){next.at[0] - next.taken * side[0],
+                                next.at[1] - next.taken * side[1]});
     }
 }
 
@@ -131,7 +130,7 @@ static void close_up(struct kr_curve *curve) {
                sizeof curve->piece[k].to);
 }
 
-/* What the deck could not tell by corners alone: curved and rounded edges. */
+/* Behind the deck's own check of corners: neighbouring sides that fold back, rounded and curved edges. */
 static void check_simple(const struct kr_curve *curve, double spacing, const char *name) {
     for (size_t k = 0; k < curve->n; k++)
         for (size_t l = 0; l < k; l++) {
@@ -141,9 +140,8 @@ static void check_simple(const struct kr_curve *curve, double spacing, const cha
                 if ((at[m].u > 0 && at[m].u < 1) || (at[m].v > 0 && at[m].v < 1) ||
                     ((l + 1 != k) && !(l == 0 && k + 1 == curve->n)))
                     kr_stop(KR_EXIT_INPUT,
-                            "%s: its edge meets itself at (%g, %g) mm; give its corners in turn, "
-                            "so that no "
-                            "two sides meet",
+                            "%s: its edge meets itself at (%g, %g) mm; give its corners in turn, so "
+                            "that no two sides meet",
                             name, 1e3 * spacing * at[m].point[0], 1e3 * spacing * at[m].point[1]);
         }
 }

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Surface correction by the energy method. The energies come from the solver's own loop, so that
- * the factors fit just the weights and the geometry that the solver will use.
+ * Surface correction by the energy method. The energies come from the solver's own loop, so that the
+ * factors fit just the weights and the geometry that the solver will use.
  *
- * The paper's iteration lambda_i <- lambda_i W0/W_i ends where W_i = W0 in all nodes. As W is
- * linear in lambda, and V_i dW_i/dlambda_j symmetric, that is a linear system with a positive
- * matrix: conjugate gradients reach the same factors in some 20 iterations instead of some 800.
+ * The paper's iteration lambda_i <- lambda_i W0/W_i ends where W_i = W0 in all nodes. As W is linear
+ * in lambda, and V_i dW_i/dlambda_j symmetric, that is a linear system with a positive matrix:
+ * conjugate gradients reach the same factors in some 20 iterations instead of some 800.
  */
 #include "surface.h"
 
@@ -21,8 +21,8 @@
 enum { MOST_ITERATIONS = 5000, FINE = 25 };
 static const double STRAIN = 1e-4, TOLERANCE = 1e-7;
 
-/* Strain along d of a deformation whose axis is `axis`. Across a uniaxial stress the model shrinks
- * by 1/4 in a solid, by 1/3 in plane stress (nu) and in plane strain (nu/(1 - nu)). */
+/* Strain along d of a deformation whose axis is `axis`. Across a uniaxial stress the model shrinks by 1/4
+ * in a solid, by 1/3 in plane stress (nu) and in plane strain (nu/(1 - nu)). */
 static double strain_along(int dim, int deformation, int axis, int d) {
     if (d >= dim)
         return 0;
@@ -33,9 +33,9 @@ static double strain_along(int dim, int deformation, int axis, int d) {
 
 /* Strains of the deformations along the axes, and how many there are to take the mean over. */
 static int strains_of(int dim, int deformation, double strain[3][3]) {
-    static const int axis_of[] = {
-        [KR_UNIAXIAL_Y] = 1, [KR_UNIAXIAL_X] = 0, [KR_UNIAXIAL_Z] = 2,      [KR_STRESS_X] = 0,
-        [KR_STRESS_Y] = 1,   [KR_STRESS_Z] = 2,   [KR_STRESS_OVER_AXES] = 0};
+    static const int axis_of[] = {[KR_UNIAXIAL_Y] = 1, [KR_UNIAXIAL_X] = 0, [KR_UNIAXIAL_Z] = 2,
+                                  [KR_STRESS_X] = 0,   [KR_STRESS_Y] = 1,   [KR_STRESS_Z] = 2,
+                                  [KR_STRESS_OVER_AXES] = 0};
     int all = deformation == KR_MEAN_OVER_AXES || deformation == KR_STRESS_OVER_AXES;
     int count = all ? dim : 1;
     for (int k = 0; k < count; k++)
@@ -52,8 +52,7 @@ static double bond_energy(const struct kr_material *m, const double xi[3], const
         square += xi[d] * xi[d];
     }
     double e = q / square;
-    return kr_material_micromodulus(m, sqrt(square)) * sqrt(square) *
-           m->law->energy(e / (1 + sqrt(1 + e)));
+    return kr_material_micromodulus(m, sqrt(square)) * sqrt(square) * m->law->energy(e / (1 + sqrt(1 + e)));
 }
 
 /* What one bond of the fine lattice holds, its volume not counted: the mean over the strains. */
@@ -80,8 +79,7 @@ double kr_surface_full_sum(const struct kr_material *m, int dim, int partial_vol
         int a = k / (side * depth) - FINE - 1, b = k / depth % side - FINE - 1;
         int c = dim == 3 ? k % depth - FINE - 1 : 0;
         const double xi[3] = {a * spacing, b * spacing, c * spacing};
-        double phi =
-            a || b || c ? kr_weight_lattice(partial_volume, dim, xi, m->horizon, spacing) : 0;
+        double phi = a || b || c ? kr_weight_lattice(partial_volume, dim, xi, m->horizon, spacing) : 0;
         if (phi > 0)
             sum += phi * term(m, xi, context) * pow(spacing, dim);
     }
@@ -226,8 +224,7 @@ static double height_of(const struct kr_bonds *b, size_t i) {
 /* Against both refusals. */
 #define CURE                                                                                       \
     "Take away a piece of few nodes, make a wall a few spacings thick, or take "                   \
-    "nodes.surface_deformation: "                                                                  \
-    "isotropic or nodes.surface_correction: force-density"
+    "nodes.surface_deformation: isotropic or nodes.surface_correction: force-density"
 
 /* A node's factor may be negative, but no bond's mean of two: such a bond would push apart what it
  * holds. Only nodes with a factor below zero can have one. */
@@ -241,8 +238,7 @@ static void refuse_pushing(const struct kr_bonds *b) {
             if (bond.i == i && b->factor[i] + b->factor[bond.j] <= 0)
                 kr_stop(KR_EXIT_NUMBERS,
                         "the surface factors %.3g and %.3g of the nodes at (%g, %g, %g) and (%g, "
-                        "%g, %g) m make their bond push: no positive factors give this place its "
-                        "energy. " CURE,
+                        "%g, %g) m make their bond push: no positive factors give this place its energy. " CURE,
                         b->factor[i], b->factor[bond.j], b->x[0][i], b->x[1][i], height_of(b, i),
                         b->x[0][bond.j], b->x[1][bond.j], height_of(b, bond.j));
     }
@@ -251,8 +247,8 @@ static void refuse_pushing(const struct kr_bonds *b) {
 struct kr_surface_report kr_surface_correct(struct kr_nodes *nodes,
                                             const struct kr_material *material, int partial_volume,
                                             int deformation) {
-    struct kr_surface_report report = {
-        .reference = kr_surface_reference(material, nodes->dim, partial_volume, deformation)};
+    struct kr_surface_report report = {.reference = kr_surface_reference(
+                                           material, nodes->dim, partial_volume, deformation)};
     struct kr_material whole = *material;
     whole.critical_stretch = INFINITY;
     kr_surface_clear(nodes);
@@ -267,9 +263,8 @@ struct kr_surface_report kr_surface_correct(struct kr_nodes *nodes,
     kr_progress_wipe(&problem.progress);
     if (!(report.residual <= TOLERANCE))
         kr_stop(KR_EXIT_NUMBERS,
-                "the surface factors did not converge: off by %.2g after %d iterations, most at "
-                "the node at (%g, %g, "
-                "%g) m. Has it few neighbours, on a chip or a thin wall? " CURE,
+                "the surface factors did not converge: off by %.2g after %d iterations, most at the "
+                "node at (%g, %g, %g) m. Has it few neighbours, on a chip or a thin wall? " CURE,
                 report.residual, report.iterations, bonds->x[0][report.worst_at],
                 bonds->x[1][report.worst_at], height_of(bonds, report.worst_at));
     kr_surface_extremes(nodes, &report);

@@ -24,8 +24,7 @@ static int check_sides(struct kr_deck *deck, const struct kr_deck_list *points) 
     const double *at = points->item;
     size_t n = points->count / 2;
     for (size_t k = 1; k <= n; k++) {
-        size_t here = k < n ? k : n - 1,
-               other = k < n ? k - 1 : 0; /* at last the last and the first */
+        size_t here = k < n ? k : n - 1, other = k < n ? k - 1 : 0; /* at last the last and the first */
         if (at[2 * here] != at[2 * other] || at[2 * here + 1] != at[2 * other + 1])
             continue;
         kr_deck_fault(deck, at + 2 * here,
@@ -38,8 +37,7 @@ static int check_sides(struct kr_deck *deck, const struct kr_deck_list *points) 
             if (is_crossed(at + 2 * l, at + 2 * l + 2, at + 2 * k, at + 2 * ((k + 1) % n))) {
                 kr_deck_fault(deck, at + 2 * k,
                               "the side from here to the next corner meets the one behind corner "
-                              "%zu, expected corners "
-                              "in turn around the shape, the first is 0",
+                              "%zu, expected corners in turn around the shape, the first is 0",
                               l);
                 return 0;
             }

@@ -44,19 +44,14 @@ struct part {
     size_t offset;
 };
 
-#define PART(type, field, example_)                                                                \
-    { #field, example_, offsetof(struct type, field) }
+#define PART(type, field, example_) {#field, example_, offsetof(struct type, field)}
 enum { HOLE_PARTS = 9, OUTLINE_PARTS = 8 };
 static const struct part hole_part[HOLE_PARTS] = {
-    PART(kr_case_hole, centre, "[10 mm, 5 mm]"),
-    PART(kr_case_hole, radius, "2 mm"),
-    PART(kr_case_hole, radii, "[2 mm, 1 mm]"),
-    PART(kr_case_hole, size, "[2 mm, 1 mm]"),
-    PART(kr_case_hole, length, "4 mm"),
-    PART(kr_case_hole, width, "1 mm"),
+    PART(kr_case_hole, centre, "[10 mm, 5 mm]"), PART(kr_case_hole, radius, "2 mm"),
+    PART(kr_case_hole, radii, "[2 mm, 1 mm]"),   PART(kr_case_hole, size, "[2 mm, 1 mm]"),
+    PART(kr_case_hole, length, "4 mm"),          PART(kr_case_hole, width, "1 mm"),
     PART(kr_case_hole, points, "[[0 mm, 0 mm], [2 mm, 0 mm], [1 mm, 2 mm]]"),
-    PART(kr_case_hole, corner_radius, "0.5 mm"),
-    PART(kr_case_hole, angle, "30 deg"),
+    PART(kr_case_hole, corner_radius, "0.5 mm"), PART(kr_case_hole, angle, "30 deg"),
 };
 static const struct part outline_part[OUTLINE_PARTS] = {
     PART(kr_case_outline, centre, "[10 mm, 10 mm]"),
@@ -197,9 +192,8 @@ static void check_shape(struct kr_deck *deck, const struct kr_case *c,
         return;
     if (o->shape == KR_OUTLINE_RECTANGLE && !kr_deck_given(deck, o->size) &&
         (kr_deck_given(deck, o->centre) || o->angle != 0))
-        kr_deck_fault(deck, o,
-                      "a rectangle of all of width by height has no centre and no angle; "
-                      "give its size, too");
+        kr_deck_fault(deck, o, "a rectangle of all of width by height has no centre and no angle; "
+                               "give its size, too");
     if (o->operation == KR_UNION)
         check_corners(deck, c, o);
     if (o->radius > 0)
@@ -225,9 +219,8 @@ static void check_outline(struct kr_deck *deck, const struct kr_case *c) {
     for (size_t k = 0; k < OUTLINE_PARTS; k++)
         if (kr_deck_given(deck, (const char *)o + outline_part[k].offset) ||
             kr_deck_given(deck, &o->shape)) {
-            kr_deck_fault(deck, &o->parts,
-                          "an outline of parts has no shape of its own; make it "
-                          "the first part");
+            kr_deck_fault(deck, &o->parts, "an outline of parts has no shape of its own; make it "
+                                           "the first part");
             break;
         }
     if (!o->parts.count)
